@@ -1,0 +1,146 @@
+//! Size of the picture, pixel filter, samples and depth.
+
+/// A rectangle of pixels, half-open: columns `x0..x1`, rows `y0..y1`, row 0 on top.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rect {
+    /// First column.
+    pub x0: u32,
+    /// First row.
+    pub y0: u32,
+    /// One past the last column.
+    pub x1: u32,
+    /// One past the last row.
+    pub y1: u32,
+}
+
+impl Rect {
+    /// Columns.
+    pub fn width(&self) -> u32 {
+        self.x1 - self.x0
+    }
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.y1 - self.y0
+    }
+    /// Number of pixels.
+    pub fn area(&self) -> u64 {
+        u64::from(self.width()) * u64::from(self.height())
+    }
+}
+
+/// Shape of the pixel filter (pbrt-v4, section 8.8). All are sampled in proportion to their value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FilterKind {
+    /// Constant within the radius.
+    Box,
+    /// Falls linearly to 0 at the radius.
+    Tent,
+    /// Gaussian with `sigma = radius / 3`, less its value at the radius.
+    Gaussian,
+    /// Blackman-Harris window over the radius.
+    BlackmanHarris,
+}
+
+/// Pixel reconstruction filter, separable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Filter {
+    /// Shape.
+    pub kind: FilterKind,
+    /// Half-width in pixels, the same in x and y.
+    pub radius: f32,
+}
+
+/// Size and encoding of the picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Film {
+    /// Columns of pixels.
+    pub width: u32,
+    /// Rows of pixels.
+    pub height: u32,
+    /// Part of the picture to render; all of it when absent.
+    pub crop: Option<Rect>,
+    /// Pixel filter.
+    pub filter: Filter,
+    /// Exposure in stops, applied on the way to PNG only.
+    pub exposure: f32,
+    /// Bits a channel in a PNG: 8 or 16.
+    pub png_bits: u32,
+    /// Write the coverage of the scene as alpha, with colour premultiplied in EXR and not in PNG.
+    pub transparent: bool,
+}
+
+impl Film {
+    /// The pixels that are rendered.
+    pub fn window(&self) -> Rect {
+        self.crop.unwrap_or(Rect { x0: 0, y0: 0, x1: self.width, y1: self.height })
+    }
+}
+
+impl Default for Film {
+    fn default() -> Self {
+        Self {
+            width: 640,
+            height: 480,
+            crop: None,
+            filter: Filter { kind: FilterKind::Box, radius: 0.5 },
+            exposure: 0.0,
+            png_bits: 8,
+            transparent: false,
+        }
+    }
+}
+
+/// Where the random numbers of a sample come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sampler {
+    /// Every sample in the middle of its pixel; the other dimensions are random.
+    Center,
+    /// Samples on the grid of strata, without jitter; the other dimensions are random.
+    Regular,
+    /// Independent uniform numbers in all dimensions.
+    Random,
+    /// One jittered sample a stratum; lens and light are stratified alike, in a random order of their own.
+    Stratified,
+    /// Owen-scrambled Sobol points by hashing (Burley 2020).
+    Sobol,
+}
+
+/// How paths are traced.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Render {
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Seed of all random numbers.
+    pub seed: u32,
+    /// Source of random numbers.
+    pub sampler: Sampler,
+    /// Strata of a pixel in x and y, for `regular` and `stratified`.
+    pub strata: [u32; 2],
+    /// Most scattering events on a path (1 = direct light only, as pbrt counts).
+    pub max_depth: u32,
+    /// Most scattering events that are not mirror or smooth glass and are followed further; none = no limit, 0
+    /// = the classical recursive ray tracer (Whitted 1980).
+    pub diffuse_bounces: Option<u32>,
+    /// End paths of small throughput at random, without changing the mean.
+    pub russian_roulette: bool,
+    /// Largest radiance that one sample may add after its first scattering event; none = no clamp.
+    pub firefly_clamp: Option<f32>,
+    /// Light that comes from below the geometric surface is cut off even where the shading normal sees it.
+    pub geometric_veto: bool,
+}
+
+impl Default for Render {
+    fn default() -> Self {
+        Self {
+            spp: 64,
+            seed: 0,
+            sampler: Sampler::Sobol,
+            strata: [4, 4],
+            max_depth: 8,
+            diffuse_bounces: None,
+            russian_roulette: true,
+            firefly_clamp: None,
+            geometric_veto: false,
+        }
+    }
+}

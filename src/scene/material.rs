@@ -1,0 +1,96 @@
+//! Materials: what a surface does with light.
+
+use super::Value;
+use glam::Vec3;
+
+/// How the reflectance of a conductor depends on the angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fresnel {
+    /// Exact conductor equations from a complex index of refraction (pbrt-v4, section 9.3.6).
+    Index {
+        /// Real part η, per channel.
+        eta: Vec3,
+        /// Imaginary part k, per channel.
+        k: Vec3,
+    },
+    /// Exact conductor equations with η = 1 and the k that gives the reflectance at normal incidence.
+    Exact,
+    /// Schlick's approximation from the reflectance at normal incidence.
+    Schlick,
+    /// The reflectance at every angle.
+    None,
+}
+
+/// A metal: a perfect mirror when both widths are 0, else a GGX microfacet surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conductor {
+    /// Reflectance at normal incidence, in [0, 1].
+    pub reflectance: Value<Vec3>,
+    /// Dependence on the angle.
+    pub fresnel: Fresnel,
+    /// GGX width α along ∂p/∂u.
+    pub alpha_u: Value<f32>,
+    /// GGX width α across ∂p/∂u.
+    pub alpha_v: Value<f32>,
+}
+
+/// Clear material: smooth when both widths are 0, else a GGX microfacet surface (Walter et al. 2007).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dielectric {
+    /// Index of refraction inside, relative to outside.
+    pub ior: f32,
+    /// GGX width α along ∂p/∂u.
+    pub alpha_u: Value<f32>,
+    /// GGX width α across ∂p/∂u.
+    pub alpha_v: Value<f32>,
+    /// Beer absorption a scene unit, per channel (Beer–Lambert law).
+    pub absorption: Vec3,
+    /// An infinitely thin sheet: reflections inside are summed and light is not bent. Smooth only.
+    pub thin: bool,
+}
+
+/// What a surface does with light.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Surface {
+    /// The colour is the radiance that the camera sees, whatever the light (the lecture's first use).
+    Unlit {
+        /// Radiance.
+        color: Value<Vec3>,
+    },
+    /// Lambertian (the lecture's third use).
+    Diffuse {
+        /// Reflectance, in [0, 1].
+        color: Value<Vec3>,
+    },
+    /// Modified Phong: kd/π + ks (n+2)/(2π) cosⁿ, scaled down where kd + ks > 1 (Lafortune and Willems 1994).
+    Phong {
+        /// Diffuse coefficient.
+        diffuse: Value<Vec3>,
+        /// Specular coefficient.
+        specular: Value<Vec3>,
+        /// Exponent n ≥ 0.
+        exponent: Value<f32>,
+    },
+    /// Metal.
+    Conductor(Conductor),
+    /// Glass, water.
+    Dielectric(Dielectric),
+}
+
+/// Light that a surface sends out by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Emission {
+    /// Radiance, W/(m² sr).
+    pub radiance: Value<Vec3>,
+    /// From the back too.
+    pub two_sided: bool,
+}
+
+/// A material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// What the surface does with light.
+    pub surface: Surface,
+    /// What it sends out.
+    pub emission: Option<Emission>,
+}

@@ -1,0 +1,47 @@
+//! The description of a picture: what a scene file says, in plain values. No GPU type is in here.
+//!
+//! World space is right-handed with y up; lengths are in scene units; angles in degrees; colours are
+//! linear Rec. 709 RGB.
+
+mod camera;
+mod film;
+mod geometry;
+mod light;
+mod material;
+mod store;
+mod texture;
+
+pub use camera::{Aperture, Camera, FovAxis, Lens};
+pub use film::{Film, Filter, FilterKind, Rect, Render, Sampler};
+pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
+pub use light::{Environment, Light};
+pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Surface};
+pub use store::{Handle, Store};
+pub use texture::{Channel, ColorSpace, Image, ImageTexture, TexelFilter, Texels, Texture, UvTransform, Value, Wrap};
+
+/// A whole scene. The handles in it index the [`Store`]s of the same scene.
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// Size, filter and encoding of the picture.
+    pub film: Film,
+    /// Samples, depth and sampler.
+    pub render: Render,
+    /// The camera.
+    pub camera: Camera,
+    /// Pictures that textures read.
+    pub images: Store<Image>,
+    /// Textures.
+    pub textures: Store<Texture>,
+    /// Materials.
+    pub materials: Store<Material>,
+    /// Triangle meshes, each in its own object space.
+    pub meshes: Store<Mesh>,
+    /// Spheres, disks and quads.
+    pub shapes: Vec<Shape>,
+    /// Meshes placed in the world.
+    pub instances: Vec<Instance>,
+    /// Lights without a surface. Surfaces shine by the emission of their material.
+    pub lights: Vec<Light>,
+    /// What rays see that leave the scene.
+    pub environment: Option<Environment>,
+}
