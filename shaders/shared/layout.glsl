@@ -1,0 +1,321 @@
+// Written by src/layout; do not edit. Records are whole numbers of uvec4 words.
+
+const uint NONE = 4294967295u; // no object
+const uint WORKGROUP = 64u; // local_size_x of every kernel
+const uint TILE = 8u; // side of a tile of pixels, one workgroup
+const uint STACK_ENTRIES = 48u; // entries of the traversal stack; prepare proves that they are enough
+const uint FILM_PLANES = 9u; // words of the film a pixel
+const uint INSTANCE_MESH = 0u; // triangles in object space
+const uint INSTANCE_SOUP = 1u; // triangles in world space
+const uint INSTANCE_SPHERE = 2u; // unit sphere about the origin, pole +z, longitude 0 at +x
+const uint INSTANCE_DISK = 3u; // unit disk in z = 0, front +z
+const uint MATERIAL_UNLIT = 0u; // colour is radiance
+const uint MATERIAL_DIFFUSE = 1u; // Lambertian
+const uint MATERIAL_PHONG = 2u; // modified Phong
+const uint MATERIAL_CONDUCTOR = 3u; // mirror or GGX metal
+const uint MATERIAL_DIELECTRIC = 4u; // smooth or GGX glass
+const uint FRESNEL_INDEX = 0u; // conductor with eta and k
+const uint FRESNEL_EXACT = 1u; // conductor with eta 1 and the k of its reflectance
+const uint FRESNEL_SCHLICK = 2u; // Schlick's approximation
+const uint FRESNEL_NONE = 3u; // the same at every angle
+const uint LIGHT_POINT = 0u; // point light
+const uint LIGHT_SPOT = 1u; // spot light
+const uint LIGHT_DISTANT = 2u; // parallel light
+const uint LIGHT_SPHERE = 3u; // sphere
+const uint LIGHT_QUAD = 4u; // rectangle or parallelogram
+const uint LIGHT_DISK = 5u; // disk; edges are its radii
+const uint LIGHT_TRIANGLE = 6u; // triangle of a mesh
+const uint WRAP_REPEAT = 0u; // bits 0..2 and 2..4 of the flags of ImageTexture
+const uint WRAP_CLAMP = 1u; // 
+const uint WRAP_MIRROR = 2u; // 
+const uint WRAP_BLACK = 3u; // 
+const uint FLAG_NEAREST = 16u; // no filter
+const uint FLAG_INVERT = 32u; // 1 - value
+const uint CHANNEL_SHIFT = 8u; // bits 8..11: 0 = rgb, 1 = r, 2 = g, 3 = b, 4 = a
+
+struct Frame {
+    vec3 camera_right; // camera space x in world space
+    float tan_x; // tangent of half the horizontal field of view
+    vec3 camera_up; // camera space y in world space
+    float tan_y; // tangent of half the vertical field of view
+    vec3 camera_back; // camera space z in world space: the camera looks along its negative
+    float lens_radius; // radius of the lens, scene units; 0 = pinhole
+    vec3 camera_position; // position of the camera
+    float focus_distance; // distance of the plane of focus, scene units
+    uint blades; // corners of the aperture; 0 = circle
+    float blade_rotation; // rotation of the aperture, radians
+    float filter_radius; // half-width of the pixel filter, pixels
+    uint seed; // seed of all random numbers
+    uvec2 film_size; // size of the whole picture, pixels
+    uvec2 window_min; // first column and row that is rendered
+    uvec2 window_max; // one past the last column and row that is rendered
+    uint tiles_x; // tiles in a row of the window
+    uint threads; // threads that share a dispatch in contiguous parts; 1 on a GPU
+    uint first_tile; // first tile of the slice, row by row
+    uint tile_count; // tiles of the slice
+    uint first_sample; // first sample of the slice
+    uint sample_count; // samples a pixel in the slice
+    uvec2 strata; // strata of a pixel in x and y
+    uint max_depth; // most scattering events on a path
+    uint diffuse_bounces; // most scattering events that are neither mirror nor clear glass
+    uint slot_count; // slots of the slice: 64 · tile_count · sample_count
+    uint root; // entry of the tree that rays start at
+    uint step_limit; // most steps of a ray in one dispatch, before it is parked
+    uint light_count; // lights in the table, the environment left out
+    float environment_chance; // chance of choosing the environment when a light is chosen
+    float firefly_clamp; // largest component that indirect light of one sample may have; 0 = no limit
+    float radiance_scale; // 1 / unit of the sums of radiance
+    float depth_scale; // 1 / unit of the sums of depth
+    vec3 environment_row0; // row 0 of the rotation from world directions to those of the environment
+    float environment_scale; // factor on the radiance of the environment
+    vec3 environment_row1; // row 1 of that rotation
+    uint environment_texture; // texture of the environment, or NONE
+    vec3 environment_row2; // row 2 of that rotation
+    uint film_first_tile; // first tile of the film band that is resident
+    vec3 environment_radiance; // constant radiance of the environment
+    uint film_tile_count; // tiles of the film band that is resident
+    uvec2 environment_size; // columns and rows of the importance table of the environment
+    uint parked_stack; // entries of the stack of a parked ray
+    uint point_count; // points of the evaluate and probe kernels
+};
+
+struct Node {
+    vec3 min0; // least corner of the first child
+    uint first0; // index of the first child: a node, or the first primitive of a leaf
+    vec3 max0; // greatest corner of the first child
+    uint count0; // primitives of the first child when it is a leaf; 0 = it is a node
+    vec3 min1; // least corner of the second child
+    uint first1; // index of the second child
+    vec3 max1; // greatest corner of the second child
+    uint count1; // primitives of the second child; 0 = it is a node
+};
+const uint NODE_WORDS = 4u;
+Node node_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
+{
+    Node r;
+    r.min0 = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.first0 = w0.w;
+    r.max0 = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.count0 = w1.w;
+    r.min1 = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
+    r.first1 = w2.w;
+    r.max1 = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
+    r.count1 = w3.w;
+    return r;
+}
+
+struct Triangle {
+    vec3 a; // first vertex, in the space of its tree
+    uint instance; // instance, when the tree is in world space; else unused
+    vec3 b; // second vertex
+    uint face; // its Face, or NONE for a flat triangle without uv that does not shine
+    vec3 c; // third vertex
+    uint material; // its material, or NONE for that of the instance
+};
+const uint TRIANGLE_WORDS = 3u;
+Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
+{
+    Triangle r;
+    r.a = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.instance = w0.w;
+    r.b = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.face = w1.w;
+    r.c = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
+    r.material = w2.w;
+    return r;
+}
+
+struct Face {
+    uvec3 vertices; // three Vertex records, or NONE thrice
+    uint primitive; // number of the triangle within its mesh
+};
+const uint FACE_WORDS = 1u;
+Face face_unpack(uvec4 w0)
+{
+    Face r;
+    r.vertices = uvec3(w0.x, w0.y, w0.z);
+    r.primitive = w0.w;
+    return r;
+}
+
+struct Vertex {
+    vec3 normal; // unit normal, or 0 when the mesh is flat
+    float u; // texture coordinate, rightward
+    float v; // texture coordinate, upward
+    vec3 spare; // room for a tangent
+};
+const uint VERTEX_WORDS = 2u;
+Vertex vertex_unpack(uvec4 w0, uvec4 w1)
+{
+    Vertex r;
+    r.normal = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.u = uintBitsToFloat(w0.w);
+    r.v = uintBitsToFloat(w1.x);
+    r.spare = uintBitsToFloat(uvec3(w1.y, w1.z, w1.w));
+    return r;
+}
+
+struct Instance {
+    uint kind; // INSTANCE_… kind
+    uint root; // root of its tree, for meshes
+    uint light; // first light of its surface, or NONE
+    uint material; // material of what has none of its own
+    vec4 object_row0; // row 0 of object from world
+    vec4 object_row1; // row 1 of object from world
+    vec4 object_row2; // row 2 of object from world
+    vec4 world_row0; // row 0 of world from object
+    vec4 world_row1; // row 1 of world from object
+    vec4 world_row2; // row 2 of world from object
+    float handedness; // 1, or -1 when the map to the world mirrors
+    uint light_stride; // 1 when each triangle is a light of its own, 0 when they are one light together
+    uint in_world; // 1 when geometry is already in world space
+    uint spare; // room
+};
+const uint INSTANCE_WORDS = 8u;
+Instance instance_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6, uvec4 w7)
+{
+    Instance r;
+    r.kind = w0.x;
+    r.root = w0.y;
+    r.light = w0.z;
+    r.material = w0.w;
+    r.object_row0 = uintBitsToFloat(uvec4(w1.x, w1.y, w1.z, w1.w));
+    r.object_row1 = uintBitsToFloat(uvec4(w2.x, w2.y, w2.z, w2.w));
+    r.object_row2 = uintBitsToFloat(uvec4(w3.x, w3.y, w3.z, w3.w));
+    r.world_row0 = uintBitsToFloat(uvec4(w4.x, w4.y, w4.z, w4.w));
+    r.world_row1 = uintBitsToFloat(uvec4(w5.x, w5.y, w5.z, w5.w));
+    r.world_row2 = uintBitsToFloat(uvec4(w6.x, w6.y, w6.z, w6.w));
+    r.handedness = uintBitsToFloat(w7.x);
+    r.light_stride = w7.y;
+    r.in_world = w7.z;
+    r.spare = w7.w;
+    return r;
+}
+
+struct Material {
+    uint kind; // MATERIAL_… kind
+    uint mode; // FRESNEL_… rule of a conductor; 1 = thin for a dielectric
+    float ior; // index of refraction of a dielectric
+    float exponent; // exponent of a Phong lobe
+    vec3 color; // colour: radiance, reflectance or diffuse coefficient
+    uint color_texture; // texture of color
+    vec3 specular; // specular coefficient of Phong, absorption of a dielectric, or η of a conductor
+    uint specular_texture; // texture of specular
+    vec3 emission; // radiance sent out
+    uint emission_texture; // texture of emission
+    float alpha_u; // GGX width along ∂p/∂u
+    float alpha_v; // GGX width across ∂p/∂u
+    uint alpha_u_texture; // texture of alpha_u
+    uint alpha_v_texture; // texture of alpha_v
+    vec3 k; // k of a conductor
+    uint exponent_texture; // texture of exponent
+    uint two_sided; // 1 when it sends light out on both sides
+    uvec3 spare; // room
+};
+const uint MATERIAL_WORDS = 7u;
+Material material_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
+{
+    Material r;
+    r.kind = w0.x;
+    r.mode = w0.y;
+    r.ior = uintBitsToFloat(w0.z);
+    r.exponent = uintBitsToFloat(w0.w);
+    r.color = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.color_texture = w1.w;
+    r.specular = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
+    r.specular_texture = w2.w;
+    r.emission = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
+    r.emission_texture = w3.w;
+    r.alpha_u = uintBitsToFloat(w4.x);
+    r.alpha_v = uintBitsToFloat(w4.y);
+    r.alpha_u_texture = w4.z;
+    r.alpha_v_texture = w4.w;
+    r.k = uintBitsToFloat(uvec3(w5.x, w5.y, w5.z));
+    r.exponent_texture = w5.w;
+    r.two_sided = w6.x;
+    r.spare = uvec3(w6.y, w6.z, w6.w);
+    return r;
+}
+
+struct ImageTexture {
+    uint base; // word of its first block of texels
+    uint pitch; // words from a row of blocks to the next
+    uvec2 size; // columns and rows of texels
+    vec2 uv_column0; // uv to picture, column 0
+    vec2 uv_column1; // uv to picture, column 1
+    vec2 uv_offset; // uv to picture, offset
+    float scale; // factor on the value
+    uint flags; // FLAG_… bits: filter, wrap, channel, invert
+};
+const uint IMAGE_TEXTURE_WORDS = 3u;
+ImageTexture image_texture_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
+{
+    ImageTexture r;
+    r.base = w0.x;
+    r.pitch = w0.y;
+    r.size = uvec2(w0.z, w0.w);
+    r.uv_column0 = uintBitsToFloat(uvec2(w1.x, w1.y));
+    r.uv_column1 = uintBitsToFloat(uvec2(w1.z, w1.w));
+    r.uv_offset = uintBitsToFloat(uvec2(w2.x, w2.y));
+    r.scale = uintBitsToFloat(w2.z);
+    r.flags = w2.w;
+    return r;
+}
+
+struct Light {
+    uint kind; // LIGHT_… kind
+    float chance; // chance of choosing it
+    float accept; // share of its slot of the alias table that is its own
+    uint alias; // the light that has the rest of the slot
+    vec3 position; // position, centre, corner or first vertex
+    float a; // radius of a sphere; cosine of the inner cone of a spot
+    vec3 edge_u; // first edge, axis, or second vertex less the first
+    float b; // cosine of the outer cone of a spot; area of a surface
+    vec3 edge_v; // second edge, or third vertex less the first
+    uint two_sided; // 1 when it shines on both sides
+    vec3 radiance; // radiance, intensity or irradiance
+    uint texture; // texture of the radiance, or NONE
+    vec2 uv0; // uv of the first vertex of a triangle
+    vec2 uv1; // uv of the second vertex less the first
+    vec2 uv2; // uv of the third vertex less the first
+    vec2 spare; // room
+};
+const uint LIGHT_WORDS = 7u;
+Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
+{
+    Light r;
+    r.kind = w0.x;
+    r.chance = uintBitsToFloat(w0.y);
+    r.accept = uintBitsToFloat(w0.z);
+    r.alias = w0.w;
+    r.position = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.a = uintBitsToFloat(w1.w);
+    r.edge_u = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
+    r.b = uintBitsToFloat(w2.w);
+    r.edge_v = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
+    r.two_sided = w3.w;
+    r.radiance = uintBitsToFloat(uvec3(w4.x, w4.y, w4.z));
+    r.texture = w4.w;
+    r.uv0 = uintBitsToFloat(uvec2(w5.x, w5.y));
+    r.uv1 = uintBitsToFloat(uvec2(w5.z, w5.w));
+    r.uv2 = uintBitsToFloat(uvec2(w6.x, w6.y));
+    r.spare = uintBitsToFloat(uvec2(w6.z, w6.w));
+    return r;
+}
+
+struct EnvironmentCell {
+    float accept; // share of the slot that is its own
+    uint alias; // the cell that has the rest
+    float chance; // chance of the cell
+    uint spare; // room
+};
+const uint ENVIRONMENT_CELL_WORDS = 1u;
+EnvironmentCell environment_cell_unpack(uvec4 w0)
+{
+    EnvironmentCell r;
+    r.accept = uintBitsToFloat(w0.x);
+    r.alias = w0.y;
+    r.chance = uintBitsToFloat(w0.z);
+    r.spare = w0.w;
+    return r;
+}

@@ -1,0 +1,125 @@
+//! Buffers in device memory.
+
+use super::device::{Gpu, Inner};
+use super::{Command, check};
+use crate::{Error, Result};
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, PoisonError};
+
+/// Where a buffer lives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// On the device.
+    Device,
+    /// Where the host writes and the device reads.
+    Upload,
+    /// Where the device writes and the host reads.
+    Readback,
+}
+
+/// A buffer. It may be bound as storage, as texels, as a uniform block, copied, filled, and hold dispatch sizes.
+pub struct Buffer {
+    pub(super) raw: vk::Buffer,
+    bytes: u64,
+    allocation: Option<Allocation>,
+    inner: Arc<Inner>,
+}
+
+impl Gpu {
+    /// Makes a buffer of at least `bytes`, a whole number of words. `name` is used in messages.
+    pub fn buffer(&self, name: &str, bytes: u64, place: Place) -> Result<Buffer> {
+        let bytes = bytes.max(16).next_multiple_of(16);
+        let info = vk::BufferCreateInfo::default().size(bytes).usage(
+            vk::BufferUsageFlags::STORAGE_BUFFER
+                | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
+                | vk::BufferUsageFlags::UNIFORM_BUFFER
+                | vk::BufferUsageFlags::INDIRECT_BUFFER
+                | vk::BufferUsageFlags::TRANSFER_SRC
+                | vk::BufferUsageFlags::TRANSFER_DST,
+        );
+        let device = &self.inner.device;
+        // SAFETY: the device is alive and `info` lives until the call returns.
+        let raw = check(unsafe { device.create_buffer(&info, None) }, &format!("make buffer `{name}`"))?;
+        let mut buffer = Buffer { raw, bytes, allocation: None, inner: self.inner.clone() };
+        // SAFETY: the buffer was just made on this device.
+        let requirements = unsafe { device.get_buffer_memory_requirements(raw) };
+        let location = match place {
+            Place::Device => MemoryLocation::GpuOnly,
+            Place::Upload => MemoryLocation::CpuToGpu,
+            Place::Readback => MemoryLocation::GpuToCpu,
+        };
+        let allocation = self
+            .inner
+            .allocator
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .allocate(&AllocationCreateDesc {
+                name,
+                requirements,
+                location,
+                linear: true,
+                allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+            })
+            .map_err(|error| {
+                Error::device(format!("no memory for buffer `{name}` of {bytes} bytes: {error}"))
+                    .help("use smaller meshes, textures or pictures, or another --device")
+            })?;
+        // SAFETY: the allocation fits the requirements of this buffer, and nothing is bound to it yet.
+        let bound = unsafe { device.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) };
+        buffer.allocation = Some(allocation);
+        self.inner.allocated.fetch_add(bytes, Ordering::Relaxed);
+        check(bound, &format!("bind memory to buffer `{name}`"))?;
+        Ok(buffer)
+    }
+
+    /// Makes a buffer on the device that holds `words`; at least one word long.
+    pub fn upload(&self, name: &str, words: &[u8]) -> Result<Buffer> {
+        let mut buffer = self.buffer(name, words.len() as u64, Place::Device)?;
+        if buffer.write(words) {
+            return Ok(buffer);
+        }
+        let mut staging = self.buffer(&format!("{name} (staging)"), words.len() as u64, Place::Upload)?;
+        if !staging.write(words) {
+            return Err(Error::device(format!("the driver does not map memory for buffer `{name}`")));
+        }
+        self.run(&[Command::Copy { from: &staging, to: &buffer, bytes: buffer.bytes }])?;
+        Ok(buffer)
+    }
+}
+
+impl Buffer {
+    /// Length in bytes.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// Writes to the start of the buffer; false when the host does not see it. The device must not be using it.
+    pub fn write(&mut self, bytes: &[u8]) -> bool {
+        let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
+        let Some(target) = mapped.and_then(|memory| memory.get_mut(..bytes.len())) else { return false };
+        target.copy_from_slice(bytes);
+        true
+    }
+
+    /// The buffer as the host sees it; none when it does not. The device must not be writing it.
+    pub fn read(&self) -> Option<&[u32]> {
+        let mapped = self.allocation.as_ref().and_then(Allocation::mapped_slice)?;
+        bytemuck::try_cast_slice(mapped.get(..usize::try_from(self.bytes).ok()?)?).ok()
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        // SAFETY: whoever submits work keeps the buffers of it until the work is done (see `Ticket`).
+        unsafe { self.inner.device.destroy_buffer(self.raw, None) };
+        if let Some(allocation) = self.allocation.take() {
+            self.inner.allocated.fetch_sub(self.bytes, Ordering::Relaxed);
+            let mut allocator = self.inner.allocator.lock().unwrap_or_else(PoisonError::into_inner);
+            // Freeing fails only for memory of another allocator.
+            _ = allocator.free(allocation);
+        }
+    }
+}

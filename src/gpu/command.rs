@@ -1,0 +1,202 @@
+//! Work for the device as a list of plain values, its submission, and waiting for it.
+
+use super::device::{Gpu, Inner};
+use super::{Bindings, Buffer, Pipeline, check};
+use crate::{Error, Result};
+use ash::vk;
+use std::sync::{Arc, PoisonError};
+
+/// One step of work. Steps run in order; a [`Command::Barrier`] makes what was written before it visible after it.
+pub enum Command<'a> {
+    /// Sets `bytes` bytes from the start to copies of `value`.
+    Fill {
+        /// What is filled.
+        buffer: &'a Buffer,
+        /// How much, a multiple of 4.
+        bytes: u64,
+        /// With what.
+        value: u32,
+    },
+    /// Copies from the start of one buffer to the start of another.
+    Copy {
+        /// Source.
+        from: &'a Buffer,
+        /// Target.
+        to: &'a Buffer,
+        /// How much.
+        bytes: u64,
+    },
+    /// Runs a kernel over a number of workgroups.
+    Dispatch {
+        /// The kernel.
+        pipeline: &'a Pipeline,
+        /// What it sees.
+        bindings: &'a Bindings,
+        /// Workgroups.
+        groups: u32,
+    },
+    /// Runs a kernel over as many workgroups as three `u32` in a buffer say.
+    DispatchIndirect {
+        /// The kernel.
+        pipeline: &'a Pipeline,
+        /// What it sees.
+        bindings: &'a Bindings,
+        /// Where the numbers are.
+        sizes: &'a Buffer,
+        /// Their offset in bytes.
+        offset: u64,
+    },
+    /// All writes before are visible to all reads after, also to the host.
+    Barrier,
+}
+
+/// Work that was submitted. Dropping it waits for the work, so that buffers, pipelines and bindings that outlive
+/// the ticket outlive the work.
+pub struct Ticket<'a> {
+    pool: vk::CommandPool,
+    fence: vk::Fence,
+    inner: Arc<Inner>,
+    done: bool,
+    // Everything that the commands name is borrowed until the work is done.
+    _borrows: std::marker::PhantomData<&'a ()>,
+}
+
+impl Gpu {
+    /// Records and submits commands.
+    pub fn submit<'a>(&self, commands: &[Command<'a>]) -> Result<Ticket<'a>> {
+        let device = &self.inner.device;
+        let info = vk::CommandPoolCreateInfo::default().queue_family_index(self.inner.queue_family);
+        // SAFETY: the device is alive; the pool is destroyed by the ticket.
+        let pool = check(unsafe { device.create_command_pool(&info, None) }, "make a command pool")?;
+        let mut ticket = Ticket {
+            pool,
+            fence: vk::Fence::null(),
+            inner: self.inner.clone(),
+            done: true,
+            _borrows: std::marker::PhantomData,
+        };
+        // SAFETY: as above.
+        ticket.fence =
+            check(unsafe { device.create_fence(&vk::FenceCreateInfo::default(), None) }, "make a fence")?;
+        let buffer = record(device, pool, commands)?;
+        let buffers = [buffer];
+        let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
+        let queue = self.inner.queue.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: the queue is locked, the command buffer is complete, and the ticket keeps it until it is done.
+        check(unsafe { device.queue_submit(*queue, &submits, ticket.fence) }, "submit work")?;
+        ticket.done = false;
+        Ok(ticket)
+    }
+
+    /// Submits commands and waits for them.
+    pub fn run(&self, commands: &[Command<'_>]) -> Result<()> {
+        self.submit(commands)?.wait()
+    }
+}
+
+fn record(device: &ash::Device, pool: vk::CommandPool, commands: &[Command<'_>]) -> Result<vk::CommandBuffer> {
+    let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
+    // SAFETY: the pool is alive and used by this thread only.
+    let buffers = check(unsafe { device.allocate_command_buffers(&info) }, "make a command buffer")?;
+    let buffer = buffers.first().copied().unwrap_or_default();
+    let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+    // SAFETY: the buffer is new.
+    check(unsafe { device.begin_command_buffer(buffer, &begin) }, "begin recording")?;
+    for command in commands {
+        // SAFETY: the buffer is recording, and everything a command names is alive and of this device.
+        unsafe { record_one(device, buffer, command) };
+    }
+    // SAFETY: the buffer is recording.
+    check(unsafe { device.end_command_buffer(buffer) }, "end recording")?;
+    Ok(buffer)
+}
+
+/// # Safety
+/// `buffer` is recording; what the command names is of this device.
+unsafe fn record_one(device: &ash::Device, buffer: vk::CommandBuffer, command: &Command<'_>) {
+    // SAFETY: see above.
+    unsafe {
+        let bind = |pipeline: &Pipeline, bindings: &Bindings| {
+            device.cmd_bind_pipeline(buffer, vk::PipelineBindPoint::COMPUTE, pipeline.raw);
+            let (layout, sets) = (pipeline.layout.pipeline, [bindings.set]);
+            device.cmd_bind_descriptor_sets(buffer, vk::PipelineBindPoint::COMPUTE, layout, 0, &sets, &[]);
+        };
+        match command {
+            Command::Fill { buffer: target, bytes, value } => {
+                device.cmd_fill_buffer(buffer, target.raw, 0, (*bytes).min(target.bytes()), *value);
+            }
+            Command::Copy { from, to, bytes } => {
+                let region = vk::BufferCopy::default().size((*bytes).min(from.bytes()).min(to.bytes()));
+                device.cmd_copy_buffer(buffer, from.raw, to.raw, &[region]);
+            }
+            Command::Dispatch { pipeline, bindings, groups } => {
+                bind(pipeline, bindings);
+                device.cmd_dispatch(buffer, *groups, 1, 1);
+            }
+            Command::DispatchIndirect { pipeline, bindings, sizes, offset } => {
+                bind(pipeline, bindings);
+                device.cmd_dispatch_indirect(buffer, sizes.raw, *offset);
+            }
+            Command::Barrier => barrier(device, buffer),
+        }
+    }
+}
+
+/// # Safety
+/// `buffer` is recording.
+unsafe fn barrier(device: &ash::Device, buffer: vk::CommandBuffer) {
+    let (stages, host) = (
+        vk::PipelineStageFlags::COMPUTE_SHADER
+            | vk::PipelineStageFlags::TRANSFER
+            | vk::PipelineStageFlags::DRAW_INDIRECT,
+        vk::PipelineStageFlags::HOST,
+    );
+    let barriers = [vk::MemoryBarrier::default()
+        .src_access_mask(vk::AccessFlags::SHADER_WRITE | vk::AccessFlags::TRANSFER_WRITE)
+        .dst_access_mask(
+            vk::AccessFlags::SHADER_READ
+                | vk::AccessFlags::SHADER_WRITE
+                | vk::AccessFlags::UNIFORM_READ
+                | vk::AccessFlags::TRANSFER_READ
+                | vk::AccessFlags::TRANSFER_WRITE
+                | vk::AccessFlags::INDIRECT_COMMAND_READ
+                | vk::AccessFlags::HOST_READ,
+        )];
+    let flags = vk::DependencyFlags::empty();
+    // SAFETY: see above.
+    unsafe { device.cmd_pipeline_barrier(buffer, stages, stages | host, flags, &barriers, &[], &[]) };
+}
+
+impl Ticket<'_> {
+    /// Waits until the work is done. Messages of the validation layer since then are an error.
+    pub fn wait(mut self) -> Result<()> {
+        self.finish()?;
+        let messages = self.inner.instance.messages.take();
+        if messages.is_empty() {
+            return Ok(());
+        }
+        Err(Error::device(format!("the validation layer says: {}", messages.join("\n"))))
+    }
+
+    fn finish(&mut self) -> Result<()> {
+        if self.done {
+            return Ok(());
+        }
+        self.done = true;
+        // SAFETY: the fence was submitted with this work.
+        let result = unsafe { self.inner.device.wait_for_fences(&[self.fence], true, u64::MAX) };
+        check(result, "wait for the device")
+    }
+}
+
+impl Drop for Ticket<'_> {
+    fn drop(&mut self) {
+        // A lost device has stopped working too: its objects may go.
+        _ = self.finish();
+        // SAFETY: the work is done; fence and pool are ours alone.
+        unsafe {
+            self.inner.device.destroy_fence(self.fence, None);
+            self.inner.device.destroy_command_pool(self.pool, None);
+        }
+    }
+}

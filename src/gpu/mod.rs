@@ -1,0 +1,30 @@
+//! The device: all `unsafe` code and all of Vulkan are in this room.
+//!
+//! Vulkan 1.2 core and nothing vendor-specific. The loader is found at run time. What the rest of the program sees are
+//! plain values: [`Gpu`], [`Buffer`], [`Pipeline`], [`Bindings`] and lists of [`Command`]s.
+
+mod buffer;
+mod command;
+mod device;
+mod instance;
+mod pipeline;
+
+pub use buffer::{Buffer, Place};
+pub use command::{Command, Ticket};
+pub use device::{DeviceChoice, DeviceInfo, DeviceType, Gpu, Limits, devices};
+pub use pipeline::{Bindings, Layout, Pipeline};
+
+use crate::{Error, Result};
+use ash::vk;
+
+/// Turns a Vulkan result into an error that says what was being done.
+fn check<T>(result: ash::prelude::VkResult<T>, what: &str) -> Result<T> {
+    result.map_err(|code| match code {
+        vk::Result::ERROR_DEVICE_LOST => Error::device(format!("the device was lost: {what}"))
+            .help("the driver reset it; try a smaller picture, look at the system log, or choose another --device"),
+        vk::Result::ERROR_OUT_OF_DEVICE_MEMORY => Error::device(format!("out of device memory: {what}"))
+            .help("use smaller meshes or textures, or another --device"),
+        vk::Result::ERROR_OUT_OF_HOST_MEMORY => Error::device(format!("out of host memory: {what}")),
+        code => Error::device(format!("{what}: Vulkan says {code:?}")),
+    })
+}

@@ -1,0 +1,217 @@
+//! Compute pipelines and what is bound to them. All kernels share the descriptor set of [`crate::layout::BINDINGS`].
+
+use super::device::{Gpu, Inner};
+use super::{Buffer, Place, check};
+use crate::layout::{BINDINGS, Backend, Binding, BindingKind, WORD_BYTES};
+use crate::{Error, Result};
+use ash::vk;
+use std::sync::Arc;
+
+/// The descriptor layout that all pipelines and bindings of a back end share.
+pub struct Layout {
+    pub(super) set: vk::DescriptorSetLayout,
+    pub(super) pipeline: vk::PipelineLayout,
+    backend: Backend,
+    inner: Arc<Inner>,
+}
+
+/// A compute kernel on the device.
+pub struct Pipeline {
+    pub(super) raw: vk::Pipeline,
+    pub(super) layout: Arc<Layout>,
+}
+
+/// One descriptor set with every binding of the table; what is not given is a dummy of one word.
+pub struct Bindings {
+    pub(super) set: vk::DescriptorSet,
+    pool: vk::DescriptorPool,
+    views: Vec<vk::BufferView>,
+    // Bound to what is not given; lives as long as the set.
+    _dummy: Buffer,
+    layout: Arc<Layout>,
+}
+
+/// The descriptors of a binding: number and type.
+fn descriptors(binding: &Binding, backend: Backend) -> Vec<(u32, vk::DescriptorType)> {
+    let storage = (binding.number, vk::DescriptorType::STORAGE_BUFFER);
+    let texels = binding.view.map(|number| (number, vk::DescriptorType::UNIFORM_TEXEL_BUFFER));
+    match (binding.kind, backend, texels) {
+        (BindingKind::Uniform, ..) => vec![(binding.number, vk::DescriptorType::UNIFORM_BUFFER)],
+        (BindingKind::Read, Backend::Texel, Some(texels)) => vec![texels],
+        (BindingKind::ReadWrite, Backend::Texel, Some(texels)) => vec![storage, texels],
+        _ => vec![storage],
+    }
+}
+
+impl Gpu {
+    /// Makes the layout that the pipelines and bindings of a back end share.
+    pub fn layout(&self, backend: Backend) -> Result<Arc<Layout>> {
+        let bindings: Vec<_> = BINDINGS
+            .iter()
+            .flat_map(|binding| descriptors(binding, backend))
+            .map(|(number, kind)| {
+                vk::DescriptorSetLayoutBinding::default()
+                    .binding(number)
+                    .descriptor_type(kind)
+                    .descriptor_count(1)
+                    .stage_flags(vk::ShaderStageFlags::COMPUTE)
+            })
+            .collect();
+        let storage = bindings.iter().filter(|b| b.descriptor_type == vk::DescriptorType::STORAGE_BUFFER).count();
+        if storage > self.inner.info.limits.storage_buffers as usize {
+            return Err(Error::device(format!(
+                "device `{}` allows {} storage buffers in a kernel, dapple needs {storage}",
+                self.inner.info.name, self.inner.info.limits.storage_buffers
+            ))
+            .help("choose another --device"));
+        }
+        let device = &self.inner.device;
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+        // SAFETY: the device is alive and `info` lives until the call returns.
+        let set = check(unsafe { device.create_descriptor_set_layout(&info, None) }, "make the set layout")?;
+        let mut layout =
+            Layout { set, pipeline: vk::PipelineLayout::null(), backend, inner: self.inner.clone() };
+        let sets = [set];
+        let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
+        // SAFETY: as above; `set` is of this device.
+        layout.pipeline = check(unsafe { device.create_pipeline_layout(&info, None) }, "make the pipeline layout")?;
+        Ok(Arc::new(layout))
+    }
+
+    /// Makes a pipeline from SPIR-V with the entry point `main`.
+    pub fn pipeline(&self, name: &str, layout: &Arc<Layout>, spirv: &[u32]) -> Result<Pipeline> {
+        let device = &self.inner.device;
+        let info = vk::ShaderModuleCreateInfo::default().code(spirv);
+        // SAFETY: the words come from glslang; the module is destroyed below.
+        let module = check(unsafe { device.create_shader_module(&info, None) }, &format!("load kernel `{name}`"))?;
+        let stage = vk::PipelineShaderStageCreateInfo::default()
+            .stage(vk::ShaderStageFlags::COMPUTE)
+            .module(module)
+            .name(c"main");
+        let infos = [vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout.pipeline)];
+        // SAFETY: module and layout are of this device; the module may go once the pipeline is made.
+        let made = unsafe {
+            let made = device.create_compute_pipelines(vk::PipelineCache::null(), &infos, None);
+            device.destroy_shader_module(module, None);
+            made
+        };
+        let pipelines = check(made.map_err(|(_, code)| code), &format!("compile kernel `{name}`"))?;
+        let raw = pipelines.first().copied().unwrap_or_default();
+        Ok(Pipeline { raw, layout: layout.clone() })
+    }
+
+    /// Makes a descriptor set. Each buffer is named by the table; a name that is not in it is an error.
+    pub fn bindings(&self, layout: &Arc<Layout>, buffers: &[(&str, &Buffer)]) -> Result<Bindings> {
+        if let Some((name, _)) = buffers.iter().find(|(name, _)| BINDINGS.iter().all(|b| b.name != *name)) {
+            return Err(Error::device(format!("no binding is called `{name}`")));
+        }
+        let dummy = self.buffer("dummy", WORD_BYTES, Place::Device)?;
+        let device = &self.inner.device;
+        let count = |kind| {
+            let all = BINDINGS.iter().flat_map(|b| descriptors(b, layout.backend));
+            vk::DescriptorPoolSize::default().ty(kind).descriptor_count(all.filter(|d| d.1 == kind).count().max(1) as u32)
+        };
+        let sizes = [
+            count(vk::DescriptorType::UNIFORM_BUFFER),
+            count(vk::DescriptorType::STORAGE_BUFFER),
+            count(vk::DescriptorType::UNIFORM_TEXEL_BUFFER),
+        ];
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
+        // SAFETY: the device is alive and `info` lives until the call returns.
+        let pool = check(unsafe { device.create_descriptor_pool(&info, None) }, "make a descriptor pool")?;
+        let mut bound = Bindings {
+            set: vk::DescriptorSet::null(),
+            pool,
+            views: Vec::new(),
+            layout: layout.clone(),
+            _dummy: dummy,
+        };
+        let sets = [layout.set];
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&sets);
+        // SAFETY: pool and layout are of this device and the pool has room for one set.
+        let set = check(unsafe { device.allocate_descriptor_sets(&info) }, "make a descriptor set")?;
+        bound.set = set.first().copied().unwrap_or_default();
+        for binding in BINDINGS {
+            let given = buffers.iter().find(|(name, _)| *name == binding.name).map(|(_, buffer)| *buffer);
+            for (number, kind) in descriptors(binding, layout.backend) {
+                bound.bind(binding.name, number, kind, given)?;
+            }
+        }
+        Ok(bound)
+    }
+}
+
+impl Bindings {
+    fn bind(&mut self, name: &str, number: u32, kind: vk::DescriptorType, given: Option<&Buffer>) -> Result<()> {
+        let buffer = given.unwrap_or(&self._dummy);
+        let inner = &self.layout.inner;
+        check_limit(inner, name, kind, buffer.bytes())?;
+        let buffers = [vk::DescriptorBufferInfo::default().buffer(buffer.raw).range(vk::WHOLE_SIZE)];
+        let mut texels = [vk::BufferView::null()];
+        let write = vk::WriteDescriptorSet::default().dst_set(self.set).dst_binding(number).descriptor_type(kind);
+        let write = if kind == vk::DescriptorType::UNIFORM_TEXEL_BUFFER {
+            let info = vk::BufferViewCreateInfo::default()
+                .buffer(buffer.raw)
+                .format(vk::Format::R32G32B32A32_UINT)
+                .range(vk::WHOLE_SIZE);
+            // SAFETY: the buffer has texel usage; the view is kept in `views` and goes before the buffer's memory
+            // is used by anything else, because sets are dropped before their buffers.
+            let view = check(unsafe { inner.device.create_buffer_view(&info, None) }, &format!("view `{name}`"))?;
+            self.views.push(view);
+            texels[0] = view;
+            write.texel_buffer_view(&texels)
+        } else {
+            write.buffer_info(&buffers)
+        };
+        // SAFETY: the set is not in use yet, and what is written lives until the call returns.
+        unsafe { inner.device.update_descriptor_sets(&[write], &[]) };
+        Ok(())
+    }
+}
+
+/// An error that names the buffer and the limit when a buffer is too long to be bound.
+fn check_limit(inner: &Inner, name: &str, kind: vk::DescriptorType, bytes: u64) -> Result<()> {
+    let limits = &inner.info.limits;
+    let (limit, what) = match kind {
+        vk::DescriptorType::UNIFORM_TEXEL_BUFFER => (limits.texel_buffer_elements * WORD_BYTES, "maxTexelBufferElements"),
+        vk::DescriptorType::STORAGE_BUFFER => (limits.storage_buffer_bytes, "maxStorageBufferRange"),
+        _ => return Ok(()),
+    };
+    if bytes <= limit {
+        return Ok(());
+    }
+    Err(Error::device(format!(
+        "`{name}` takes {bytes} bytes, but {what} of device `{}` allows {limit}",
+        inner.info.name
+    ))
+    .help("use fewer or smaller meshes and textures, or another --device"))
+}
+
+impl Drop for Layout {
+    fn drop(&mut self) {
+        // SAFETY: pipelines and sets hold an `Arc` of this, so none is left.
+        unsafe {
+            self.inner.device.destroy_pipeline_layout(self.pipeline, None);
+            self.inner.device.destroy_descriptor_set_layout(self.set, None);
+        }
+    }
+}
+
+impl Drop for Pipeline {
+    fn drop(&mut self) {
+        // SAFETY: whoever submits work keeps the pipelines of it until the work is done (see `Ticket`).
+        unsafe { self.layout.inner.device.destroy_pipeline(self.raw, None) };
+    }
+}
+
+impl Drop for Bindings {
+    fn drop(&mut self) {
+        // SAFETY: whoever submits work keeps the bindings of it until the work is done (see `Ticket`).
+        unsafe {
+            for view in &self.views {
+                self.layout.inner.device.destroy_buffer_view(*view, None);
+            }
+            self.layout.inner.device.destroy_descriptor_pool(self.pool, None);
+        }
+    }
+}

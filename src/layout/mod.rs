@@ -1,0 +1,83 @@
+//! The only definition of what host and kernels share: records, enum numbers, constants and bindings.
+//!
+//! [`layout_glsl`] and [`bindings_glsl`] write `shaders/shared/layout.glsl` and `shaders/shared/bindings.glsl`,
+//! which are committed; a test compares them. Every record is a whole number of 16-byte words, read as `uvec4`
+//! and unpacked with `uintBitsToFloat`, because a float format may flush small integers as denormals.
+
+mod bindings;
+mod glsl;
+mod records;
+
+pub use bindings::{BINDINGS, Backend, Binding, BindingKind, bindings_glsl};
+pub use glsl::layout_glsl;
+pub use records::*;
+
+/// Invocations of a workgroup: `local_size_x`, the only size in use.
+pub const WORKGROUP: u32 = 64;
+/// Side of a square tile of pixels: a workgroup takes one.
+pub const TILE: u32 = 8;
+/// Bytes of the word that kernels read.
+pub const WORD_BYTES: u64 = 16;
+/// Entries of the traversal stack in the kernels. `prepare` proves that every tree fits.
+pub const STACK_ENTRIES: u32 = 48;
+/// Words a pixel of the film: see [`crate::film`].
+pub const FILM_PLANES: u32 = 9;
+/// log₂ of the unit of the sums of albedo and normal.
+pub const AOV_EXPONENT: i32 = -20;
+
+/// A record in device memory: plain data, a whole number of words.
+pub trait Record: bytemuck::Pod {
+    /// Name in GLSL.
+    const NAME: &'static str;
+    /// Fields in order: name in GLSL, type in GLSL, offset in 4-byte units.
+    const FIELDS: &'static [Field];
+    /// Number of 16-byte words.
+    const WORDS: u32;
+}
+
+/// A field of a [`Record`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Field {
+    /// Name, the same in Rust and GLSL.
+    pub name: &'static str,
+    /// Its doc comment.
+    pub doc: &'static str,
+    /// Type in GLSL.
+    pub glsl_type: &'static str,
+    /// Position in 4-byte units.
+    pub offset: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Compares a committed file with what the table writes; `BLESS=layout` rewrites it.
+    fn check_written(file: &str, text: &str) {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders/shared").join(file);
+        if std::env::var("BLESS").is_ok_and(|what| what == "layout") {
+            std::fs::write(&path, text).unwrap();
+        }
+        let committed = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(committed == text, "{file} differs from src/layout; accept with BLESS=layout cargo test layout");
+    }
+
+    #[test]
+    fn committed_layout_is_what_the_records_say() {
+        check_written("layout.glsl", &layout_glsl());
+    }
+
+    #[test]
+    fn committed_bindings_are_what_the_table_says() {
+        check_written("bindings.glsl", &bindings_glsl());
+    }
+
+    #[test]
+    fn at_most_24_storage_buffers_and_no_number_twice() {
+        let mut numbers: Vec<u32> = BINDINGS.iter().flat_map(|b| [Some(b.number), b.view]).flatten().collect();
+        numbers.sort_unstable();
+        assert!(numbers.windows(2).all(|pair| pair[0] < pair[1]), "{numbers:?}");
+        let storage = BINDINGS.iter().filter(|b| b.kind != BindingKind::Uniform).count();
+        assert!(storage <= 24, "{storage} storage buffers");
+    }
+}

@@ -1,0 +1,453 @@
+//! The records and constants that host and kernels share.
+
+use super::{FILM_PLANES, Field, Record, STACK_ENTRIES, TILE, WORKGROUP};
+
+/// What the writer of `layout.glsl` needs to know of a record.
+#[derive(Debug, Clone, Copy)]
+pub struct RecordInfo {
+    /// Name in GLSL.
+    pub name: &'static str,
+    /// Fields in order.
+    pub fields: &'static [Field],
+    /// Words; 0 for the uniform block, which is not unpacked.
+    pub words: u32,
+}
+
+macro_rules! glsl_type {
+    (f32) => { "float" };
+    (u32) => { "uint" };
+    ([f32; 2]) => { "vec2" };
+    ([f32; 3]) => { "vec3" };
+    ([f32; 4]) => { "vec4" };
+    ([u32; 2]) => { "uvec2" };
+    ([u32; 3]) => { "uvec3" };
+    ([u32; 4]) => { "uvec4" };
+}
+
+/// Declares records: the Rust struct, its place in GLSL, and [`RECORDS`].
+macro_rules! records {
+    ($( $(#[doc = $about:literal])* struct $name:ident { $( #[doc = $doc:literal] $field:ident: $ty:tt, )* } )*) => {
+        $(
+            $(#[doc = $about])*
+            #[repr(C)]
+            #[derive(Debug, Clone, Copy, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+            pub struct $name { $( #[doc = $doc] pub $field: $ty, )* }
+
+            impl Record for $name {
+                const NAME: &'static str = stringify!($name);
+                const FIELDS: &'static [Field] = &[ $( Field {
+                    name: stringify!($field),
+                    doc: $doc.trim_ascii(),
+                    glsl_type: glsl_type!($ty),
+                    offset: (std::mem::offset_of!($name, $field) / 4) as u32,
+                }, )* ];
+                const WORDS: u32 = {
+                    assert!(std::mem::size_of::<$name>() % 16 == 0, "a record is a whole number of words");
+                    (std::mem::size_of::<$name>() / 16) as u32
+                };
+            }
+        )*
+
+        /// Every record, in the order of `layout.glsl`.
+        pub const RECORDS: &[RecordInfo] = &[ $( RecordInfo {
+            name: <$name as Record>::NAME,
+            fields: <$name as Record>::FIELDS,
+            words: if is_uniform(<$name as Record>::NAME) { 0 } else { <$name as Record>::WORDS },
+        }, )* ];
+    };
+}
+
+/// `Frame` is the one record in a uniform block: its fields keep to std140 by their order.
+const fn is_uniform(name: &str) -> bool {
+    let (name, frame) = (name.as_bytes(), b"Frame");
+    name.len() == frame.len() && name[0] == frame[0] && name[4] == frame[4]
+}
+
+records! {
+    /// All that stays the same during a slice, in a uniform block (std140).
+    struct Frame {
+        /// camera space x in world space
+        camera_right: [f32; 3],
+        /// tangent of half the horizontal field of view
+        tan_x: f32,
+        /// camera space y in world space
+        camera_up: [f32; 3],
+        /// tangent of half the vertical field of view
+        tan_y: f32,
+        /// camera space z in world space: the camera looks along its negative
+        camera_back: [f32; 3],
+        /// radius of the lens, scene units; 0 = pinhole
+        lens_radius: f32,
+        /// position of the camera
+        camera_position: [f32; 3],
+        /// distance of the plane of focus, scene units
+        focus_distance: f32,
+        /// corners of the aperture; 0 = circle
+        blades: u32,
+        /// rotation of the aperture, radians
+        blade_rotation: f32,
+        /// half-width of the pixel filter, pixels
+        filter_radius: f32,
+        /// seed of all random numbers
+        seed: u32,
+        /// size of the whole picture, pixels
+        film_size: [u32; 2],
+        /// first column and row that is rendered
+        window_min: [u32; 2],
+        /// one past the last column and row that is rendered
+        window_max: [u32; 2],
+        /// tiles in a row of the window
+        tiles_x: u32,
+        /// threads that share a dispatch in contiguous parts; 1 on a GPU
+        threads: u32,
+        /// first tile of the slice, row by row
+        first_tile: u32,
+        /// tiles of the slice
+        tile_count: u32,
+        /// first sample of the slice
+        first_sample: u32,
+        /// samples a pixel in the slice
+        sample_count: u32,
+        /// strata of a pixel in x and y
+        strata: [u32; 2],
+        /// most scattering events on a path
+        max_depth: u32,
+        /// most scattering events that are neither mirror nor clear glass
+        diffuse_bounces: u32,
+        /// slots of the slice: 64 · tile_count · sample_count
+        slot_count: u32,
+        /// entry of the tree that rays start at
+        root: u32,
+        /// most steps of a ray in one dispatch, before it is parked
+        step_limit: u32,
+        /// lights in the table, the environment left out
+        light_count: u32,
+        /// chance of choosing the environment when a light is chosen
+        environment_chance: f32,
+        /// largest component that indirect light of one sample may have; 0 = no limit
+        firefly_clamp: f32,
+        /// 1 / unit of the sums of radiance
+        radiance_scale: f32,
+        /// 1 / unit of the sums of depth
+        depth_scale: f32,
+        /// row 0 of the rotation from world directions to those of the environment
+        environment_row0: [f32; 3],
+        /// factor on the radiance of the environment
+        environment_scale: f32,
+        /// row 1 of that rotation
+        environment_row1: [f32; 3],
+        /// texture of the environment, or NONE
+        environment_texture: u32,
+        /// row 2 of that rotation
+        environment_row2: [f32; 3],
+        /// first tile of the film band that is resident
+        film_first_tile: u32,
+        /// constant radiance of the environment
+        environment_radiance: [f32; 3],
+        /// tiles of the film band that is resident
+        film_tile_count: u32,
+        /// columns and rows of the importance table of the environment
+        environment_size: [u32; 2],
+        /// entries of the stack of a parked ray
+        parked_stack: u32,
+        /// points of the evaluate and probe kernels
+        point_count: u32,
+    }
+
+    /// Two child boxes of a BVH node (Aila and Laine 2009).
+    struct Node {
+        /// least corner of the first child
+        min0: [f32; 3],
+        /// index of the first child: a node, or the first primitive of a leaf
+        first0: u32,
+        /// greatest corner of the first child
+        max0: [f32; 3],
+        /// primitives of the first child when it is a leaf; 0 = it is a node
+        count0: u32,
+        /// least corner of the second child
+        min1: [f32; 3],
+        /// index of the second child
+        first1: u32,
+        /// greatest corner of the second child
+        max1: [f32; 3],
+        /// primitives of the second child; 0 = it is a node
+        count1: u32,
+    }
+
+    /// A triangle in the order of the tree.
+    struct Triangle {
+        /// first vertex, in the space of its tree
+        a: [f32; 3],
+        /// instance, when the tree is in world space; else unused
+        instance: u32,
+        /// second vertex
+        b: [f32; 3],
+        /// its Face, or NONE for a flat triangle without uv that does not shine
+        face: u32,
+        /// third vertex
+        c: [f32; 3],
+        /// its material, or NONE for that of the instance
+        material: u32,
+    }
+
+    /// Shading data of a triangle.
+    struct Face {
+        /// three Vertex records, or NONE thrice
+        vertices: [u32; 3],
+        /// number of the triangle within its mesh
+        primitive: u32,
+    }
+
+    /// Shading data of a vertex.
+    struct Vertex {
+        /// unit normal, or 0 when the mesh is flat
+        normal: [f32; 3],
+        /// texture coordinate, rightward
+        u: f32,
+        /// texture coordinate, upward
+        v: f32,
+        /// room for a tangent
+        spare: [f32; 3],
+    }
+
+    /// A shape or mesh in the world. Rows are of 3×4 matrices.
+    struct Instance {
+        /// INSTANCE_… kind
+        kind: u32,
+        /// root of its tree, for meshes
+        root: u32,
+        /// first light of its surface, or NONE
+        light: u32,
+        /// material of what has none of its own
+        material: u32,
+        /// row 0 of object from world
+        object_row0: [f32; 4],
+        /// row 1 of object from world
+        object_row1: [f32; 4],
+        /// row 2 of object from world
+        object_row2: [f32; 4],
+        /// row 0 of world from object
+        world_row0: [f32; 4],
+        /// row 1 of world from object
+        world_row1: [f32; 4],
+        /// row 2 of world from object
+        world_row2: [f32; 4],
+        /// 1, or -1 when the map to the world mirrors
+        handedness: f32,
+        /// 1 when each triangle is a light of its own, 0 when they are one light together
+        light_stride: u32,
+        /// 1 when geometry is already in world space
+        in_world: u32,
+        /// room
+        spare: u32,
+    }
+
+    /// A material. A texture field is a reference (see TextureRef in texture/), or NONE.
+    struct Material {
+        /// MATERIAL_… kind
+        kind: u32,
+        /// FRESNEL_… rule of a conductor; 1 = thin for a dielectric
+        mode: u32,
+        /// index of refraction of a dielectric
+        ior: f32,
+        /// exponent of a Phong lobe
+        exponent: f32,
+        /// colour: radiance, reflectance or diffuse coefficient
+        color: [f32; 3],
+        /// texture of color
+        color_texture: u32,
+        /// specular coefficient of Phong, absorption of a dielectric, or η of a conductor
+        specular: [f32; 3],
+        /// texture of specular
+        specular_texture: u32,
+        /// radiance sent out
+        emission: [f32; 3],
+        /// texture of emission
+        emission_texture: u32,
+        /// GGX width along ∂p/∂u
+        alpha_u: f32,
+        /// GGX width across ∂p/∂u
+        alpha_v: f32,
+        /// texture of alpha_u
+        alpha_u_texture: u32,
+        /// texture of alpha_v
+        alpha_v_texture: u32,
+        /// k of a conductor
+        k: [f32; 3],
+        /// texture of exponent
+        exponent_texture: u32,
+        /// 1 when it sends light out on both sides
+        two_sided: u32,
+        /// room
+        spare: [u32; 3],
+    }
+
+    /// A picture in the atlas, as a texture sees it.
+    struct ImageTexture {
+        /// word of its first block of texels
+        base: u32,
+        /// words from a row of blocks to the next
+        pitch: u32,
+        /// columns and rows of texels
+        size: [u32; 2],
+        /// uv to picture, column 0
+        uv_column0: [f32; 2],
+        /// uv to picture, column 1
+        uv_column1: [f32; 2],
+        /// uv to picture, offset
+        uv_offset: [f32; 2],
+        /// factor on the value
+        scale: f32,
+        /// FLAG_… bits: filter, wrap, channel, invert
+        flags: u32,
+    }
+
+    /// A light, with its place in the alias table (Vose 1991) that chooses by power.
+    struct Light {
+        /// LIGHT_… kind
+        kind: u32,
+        /// chance of choosing it
+        chance: f32,
+        /// share of its slot of the alias table that is its own
+        accept: f32,
+        /// the light that has the rest of the slot
+        alias: u32,
+        /// position, centre, corner or first vertex
+        position: [f32; 3],
+        /// radius of a sphere; cosine of the inner cone of a spot
+        a: f32,
+        /// first edge, axis, or second vertex less the first
+        edge_u: [f32; 3],
+        /// cosine of the outer cone of a spot; area of a surface
+        b: f32,
+        /// second edge, or third vertex less the first
+        edge_v: [f32; 3],
+        /// 1 when it shines on both sides
+        two_sided: u32,
+        /// radiance, intensity or irradiance
+        radiance: [f32; 3],
+        /// texture of the radiance, or NONE
+        texture: u32,
+        /// uv of the first vertex of a triangle
+        uv0: [f32; 2],
+        /// uv of the second vertex less the first
+        uv1: [f32; 2],
+        /// uv of the third vertex less the first
+        uv2: [f32; 2],
+        /// room
+        spare: [f32; 2],
+    }
+
+    /// A cell of the importance table of the environment (alias method).
+    struct EnvironmentCell {
+        /// share of the slot that is its own
+        accept: f32,
+        /// the cell that has the rest
+        alias: u32,
+        /// chance of the cell
+        chance: f32,
+        /// room
+        spare: u32,
+    }
+}
+
+/// Constants of `layout.glsl`: name, value, meaning.
+pub const CONSTANTS: &[(&str, u32, &str)] = &[
+    ("NONE", NONE, "no object"),
+    ("WORKGROUP", WORKGROUP, "local_size_x of every kernel"),
+    ("TILE", TILE, "side of a tile of pixels, one workgroup"),
+    ("STACK_ENTRIES", STACK_ENTRIES, "entries of the traversal stack; prepare proves that they are enough"),
+    ("FILM_PLANES", FILM_PLANES, "words of the film a pixel"),
+    ("INSTANCE_MESH", INSTANCE_MESH, "triangles in object space"),
+    ("INSTANCE_SOUP", INSTANCE_SOUP, "triangles in world space"),
+    ("INSTANCE_SPHERE", INSTANCE_SPHERE, "unit sphere about the origin, pole +z, longitude 0 at +x"),
+    ("INSTANCE_DISK", INSTANCE_DISK, "unit disk in z = 0, front +z"),
+    ("MATERIAL_UNLIT", MATERIAL_UNLIT, "colour is radiance"),
+    ("MATERIAL_DIFFUSE", MATERIAL_DIFFUSE, "Lambertian"),
+    ("MATERIAL_PHONG", MATERIAL_PHONG, "modified Phong"),
+    ("MATERIAL_CONDUCTOR", MATERIAL_CONDUCTOR, "mirror or GGX metal"),
+    ("MATERIAL_DIELECTRIC", MATERIAL_DIELECTRIC, "smooth or GGX glass"),
+    ("FRESNEL_INDEX", FRESNEL_INDEX, "conductor with eta and k"),
+    ("FRESNEL_EXACT", FRESNEL_EXACT, "conductor with eta 1 and the k of its reflectance"),
+    ("FRESNEL_SCHLICK", FRESNEL_SCHLICK, "Schlick's approximation"),
+    ("FRESNEL_NONE", FRESNEL_NONE, "the same at every angle"),
+    ("LIGHT_POINT", LIGHT_POINT, "point light"),
+    ("LIGHT_SPOT", LIGHT_SPOT, "spot light"),
+    ("LIGHT_DISTANT", LIGHT_DISTANT, "parallel light"),
+    ("LIGHT_SPHERE", LIGHT_SPHERE, "sphere"),
+    ("LIGHT_QUAD", LIGHT_QUAD, "rectangle or parallelogram"),
+    ("LIGHT_DISK", LIGHT_DISK, "disk; edges are its radii"),
+    ("LIGHT_TRIANGLE", LIGHT_TRIANGLE, "triangle of a mesh"),
+    ("WRAP_REPEAT", WRAP_REPEAT, "bits 0..2 and 2..4 of the flags of ImageTexture"),
+    ("WRAP_CLAMP", WRAP_CLAMP, ""),
+    ("WRAP_MIRROR", WRAP_MIRROR, ""),
+    ("WRAP_BLACK", WRAP_BLACK, ""),
+    ("FLAG_NEAREST", FLAG_NEAREST, "no filter"),
+    ("FLAG_INVERT", FLAG_INVERT, "1 - value"),
+    ("CHANNEL_SHIFT", CHANNEL_SHIFT, "bits 8..11: 0 = rgb, 1 = r, 2 = g, 3 = b, 4 = a"),
+];
+
+macro_rules! constants {
+    ($($(#[doc = $doc:literal])* $name:ident = $value:expr;)*) => {
+        $( $(#[doc = $doc])* pub const $name: u32 = $value; )*
+    };
+}
+
+constants! {
+    /// No object.
+    NONE = u32::MAX;
+    /// Instance kind: triangles in object space.
+    INSTANCE_MESH = 0;
+    /// Instance kind: all triangles that are placed once, in world space.
+    INSTANCE_SOUP = 1;
+    /// Instance kind: unit sphere.
+    INSTANCE_SPHERE = 2;
+    /// Instance kind: unit disk.
+    INSTANCE_DISK = 3;
+    /// Material kind.
+    MATERIAL_UNLIT = 0;
+    /// Material kind.
+    MATERIAL_DIFFUSE = 1;
+    /// Material kind.
+    MATERIAL_PHONG = 2;
+    /// Material kind.
+    MATERIAL_CONDUCTOR = 3;
+    /// Material kind.
+    MATERIAL_DIELECTRIC = 4;
+    /// Conductor rule.
+    FRESNEL_INDEX = 0;
+    /// Conductor rule.
+    FRESNEL_EXACT = 1;
+    /// Conductor rule.
+    FRESNEL_SCHLICK = 2;
+    /// Conductor rule.
+    FRESNEL_NONE = 3;
+    /// Light kind.
+    LIGHT_POINT = 0;
+    /// Light kind.
+    LIGHT_SPOT = 1;
+    /// Light kind.
+    LIGHT_DISTANT = 2;
+    /// Light kind.
+    LIGHT_SPHERE = 3;
+    /// Light kind.
+    LIGHT_QUAD = 4;
+    /// Light kind.
+    LIGHT_DISK = 5;
+    /// Light kind.
+    LIGHT_TRIANGLE = 6;
+    /// Wrap mode.
+    WRAP_REPEAT = 0;
+    /// Wrap mode.
+    WRAP_CLAMP = 1;
+    /// Wrap mode.
+    WRAP_MIRROR = 2;
+    /// Wrap mode.
+    WRAP_BLACK = 3;
+    /// Flag of an image texture.
+    FLAG_NEAREST = 16;
+    /// Flag of an image texture.
+    FLAG_INVERT = 32;
+    /// Position of the channel in the flags of an image texture.
+    CHANNEL_SHIFT = 8;
+}
