@@ -158,20 +158,20 @@ records! {
     struct Node {
         /// least corner of the first child
         min0: [f32; 3],
-        /// index of the first child: a node, or the first primitive of a leaf
-        first0: u32,
+        /// the first child: a node, or LEAF with count and first primitive, or LEAF and LEAF_INSTANCE with an instance
+        child0: u32,
         /// greatest corner of the first child
         max0: [f32; 3],
-        /// primitives of the first child when it is a leaf; 0 = it is a node
-        count0: u32,
+        /// room
+        spare0: u32,
         /// least corner of the second child
         min1: [f32; 3],
-        /// index of the second child
-        first1: u32,
+        /// the second child
+        child1: u32,
         /// greatest corner of the second child
         max1: [f32; 3],
-        /// primitives of the second child; 0 = it is a node
-        count1: u32,
+        /// room
+        spare1: u32,
     }
 
     /// A triangle in the order of the tree.
@@ -358,6 +358,10 @@ pub const CONSTANTS: &[(&str, u32, &str)] = &[
     ("TILE", TILE, "side of a tile of pixels, one workgroup"),
     ("STACK_ENTRIES", STACK_ENTRIES, "entries of the traversal stack; prepare proves that they are enough"),
     ("FILM_PLANES", FILM_PLANES, "words of the film a pixel"),
+    ("LEAF", LEAF, "bit of a child reference: a leaf; bits 27..30 hold its primitives less one, bits 0..27 the first"),
+    ("LEAF_INSTANCE", LEAF_INSTANCE, "bit of a leaf reference: bits 0..27 are an instance"),
+    ("LEAF_COUNT_SHIFT", LEAF_COUNT_SHIFT, ""),
+    ("LEAF_FIRST_MASK", LEAF_FIRST_MASK, ""),
     ("INSTANCE_MESH", INSTANCE_MESH, "triangles in object space"),
     ("INSTANCE_SOUP", INSTANCE_SOUP, "triangles in world space"),
     ("INSTANCE_SPHERE", INSTANCE_SPHERE, "unit sphere about the origin, pole +z, longitude 0 at +x"),
@@ -396,6 +400,14 @@ macro_rules! constants {
 constants! {
     /// No object.
     NONE = u32::MAX;
+    /// Bit of a child reference: it is a leaf.
+    LEAF = 1 << 31;
+    /// Bit of a leaf reference: it is an instance.
+    LEAF_INSTANCE = 1 << 30;
+    /// Position of the number of primitives, less one, in a leaf reference.
+    LEAF_COUNT_SHIFT = 27;
+    /// Bits of the first primitive, or of the instance, in a leaf reference.
+    LEAF_FIRST_MASK = (1 << 27) - 1;
     /// Instance kind: triangles in object space.
     INSTANCE_MESH = 0;
     /// Instance kind: all triangles that are placed once, in world space.

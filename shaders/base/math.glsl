@@ -1,0 +1,51 @@
+// Constants and small pure functions.
+
+const float PI = 3.14159265358979;
+const float INV_PI = 0.318309886183791;
+const float INV_TWO_PI = 0.159154943091895;
+const float INV_FOUR_PI = 0.0795774715459477;
+const float FAR = 3.0e38;                 // beyond every hit: the largest round float, because WGSL has no infinity
+const float ONE_MINUS_EPSILON = 0.99999994; // the largest float below 1
+
+float sqr(float x) { return x * x; }
+
+float safe_sqrt(float x) { return sqrt(max(x, 0.0)); }
+
+float max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+float mean_component(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
+
+bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
+
+// An orthonormal basis around a unit vector (Duff et al. 2017).
+struct Basis { vec3 x; vec3 y; vec3 z; };
+
+Basis basis_around(vec3 z)
+{
+    float s = z.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (s + z.z);
+    float b = z.x * z.y * a;
+    return Basis(vec3(1.0 + s * z.x * z.x * a, s * b, -s * z.x), vec3(b, s + z.y * z.y * a, -z.y), z);
+}
+
+// A basis around z whose x is as near to `along` as can be.
+Basis basis_along(vec3 z, vec3 along)
+{
+    vec3 x = along - z * dot(z, along);
+    float l = dot(x, x);
+    if (l < 1e-20) return basis_around(z);
+    x *= inversesqrt(l);
+    return Basis(x, cross(z, x), z);
+}
+
+vec3 basis_to_world(Basis b, vec3 v) { return b.x * v.x + b.y * v.y + b.z * v.z; }
+
+vec3 basis_to_local(Basis b, vec3 v) { return vec3(dot(b.x, v), dot(b.y, v), dot(b.z, v)); }
+
+// Balance of two sampling strategies, power heuristic with exponent 2 (Veach 1997, section 9.2.4).
+float power_heuristic(float own, float other)
+{
+    float a = own * own;
+    float b = other * other;
+    return a > 0.0 ? a / (a + b) : 0.0;
+}

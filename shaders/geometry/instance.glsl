@@ -1,0 +1,28 @@
+// Maps between the world and the object space of an instance.
+#include "shared/bindings.glsl"
+
+Instance instance_fetch(uint i)
+{
+    uint w = i * INSTANCE_WORDS;
+    return instance_unpack(fetch_instances(w), fetch_instances(w + 1u), fetch_instances(w + 2u), fetch_instances(w + 3u),
+                           fetch_instances(w + 4u), fetch_instances(w + 5u), fetch_instances(w + 6u),
+                           fetch_instances(w + 7u));
+}
+
+vec3 affine_point(vec4 row0, vec4 row1, vec4 row2, vec3 p)
+{
+    return vec3(dot(row0.xyz, p) + row0.w, dot(row1.xyz, p) + row1.w, dot(row2.xyz, p) + row2.w);
+}
+
+vec3 affine_vector(vec4 row0, vec4 row1, vec4 row2, vec3 v)
+{
+    return vec3(dot(row0.xyz, v), dot(row1.xyz, v), dot(row2.xyz, v));
+}
+
+vec3 object_point(Instance i, vec3 p) { return affine_point(i.object_row0, i.object_row1, i.object_row2, p); }
+vec3 object_vector(Instance i, vec3 v) { return affine_vector(i.object_row0, i.object_row1, i.object_row2, v); }
+vec3 world_point(Instance i, vec3 p) { return affine_point(i.world_row0, i.world_row1, i.world_row2, p); }
+vec3 world_vector(Instance i, vec3 v) { return affine_vector(i.world_row0, i.world_row1, i.world_row2, v); }
+
+// Normals go by the inverse transpose; not of unit length.
+vec3 world_normal(Instance i, vec3 n) { return i.object_row0.xyz * n.x + i.object_row1.xyz * n.y + i.object_row2.xyz * n.z; }

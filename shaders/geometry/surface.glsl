@@ -1,0 +1,119 @@
+// From a hit to the point on the surface that shading needs.
+#include "shared/bindings.glsl"
+#include "base/offset.glsl"
+#include "geometry/instance.glsl"
+#include "geometry/triangle.glsl"
+
+struct Surface {
+    vec3 position;        // world space
+    vec3 object_position; // object space of its instance
+    vec3 geometric;       // unit normal of the geometry, outward
+    vec3 normal;          // unit shading normal, on the side of `geometric`
+    vec3 dpdu;            // ∂p/∂u in world space, not of unit length
+    vec2 uv;
+    uint material;
+    uint light;           // its light, or NONE
+};
+
+Vertex vertex_fetch(uint i) { return vertex_unpack(fetch_vertices(i * VERTEX_WORDS), fetch_vertices(i * VERTEX_WORDS + 1u)); }
+
+// A point on a triangle: `to_world` is true when the triangle is in object space.
+Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 origin, vec3 direction)
+{
+    Surface s;
+    uint w = index * TRIANGLE_WORDS;
+    Triangle triangle = triangle_unpack(fetch_triangles(w), fetch_triangles(w + 1u), fetch_triangles(w + 2u));
+    vec3 o = to_world ? object_point(instance, origin) : origin;
+    vec3 d = to_world ? object_vector(instance, direction) : direction;
+    float t;
+    vec2 bary;
+    triangle_hit(triangle.a, triangle.b, triangle.c, o, d, FAR, t, bary);
+    vec3 ab = triangle.b - triangle.a;
+    vec3 ac = triangle.c - triangle.a;
+    vec3 p = triangle.a + bary.x * ab + bary.y * ac;
+    vec3 geometric = cross(ab, ac);
+
+    // uv (0,0), (1,0), (1,1) where the mesh has none
+    vec2 uv0 = vec2(0.0);
+    vec2 uv1 = vec2(1.0, 0.0);
+    vec2 uv2 = vec2(1.0);
+    vec3 normal = geometric;
+    uint primitive = 0u;
+    if (triangle.face != NONE) {
+        Face face = face_unpack(fetch_faces(triangle.face));
+        primitive = face.primitive;
+        if (face.vertices.x != NONE) {
+            Vertex a = vertex_fetch(face.vertices.x);
+            Vertex b = vertex_fetch(face.vertices.y);
+            Vertex c = vertex_fetch(face.vertices.z);
+            uv0 = vec2(a.u, a.v);
+            uv1 = vec2(b.u, b.v);
+            uv2 = vec2(c.u, c.v);
+            vec3 smoothed = a.normal + bary.x * (b.normal - a.normal) + bary.y * (c.normal - a.normal);
+            if (dot(smoothed, smoothed) > 0.0) normal = smoothed;
+        }
+    }
+    vec2 du = uv1 - uv0;
+    vec2 dv = uv2 - uv0;
+    s.uv = uv0 + bary.x * du + bary.y * dv;
+    float determinant = du.x * dv.y - du.y * dv.x;
+    s.dpdu = abs(determinant) < 1e-9 ? vec3(0.0) : (dv.y * ab - du.y * ac) / determinant;
+    if (to_world) {
+        s.object_position = p;
+        s.position = world_point(instance, p);
+        s.dpdu = world_vector(instance, s.dpdu);
+        geometric = world_normal(instance, geometric);
+        normal = world_normal(instance, normal);
+    } else {
+        s.position = p;
+        s.object_position = object_point(instance, p);
+    }
+    s.geometric = normalize(geometric);
+    s.normal = normalize(normal);
+    if (dot(s.normal, s.geometric) < 0.0) s.normal = -s.normal;
+    s.material = triangle.material != NONE ? triangle.material : instance.material;
+    s.light = instance.light == NONE ? NONE : instance.light + instance.light_stride * primitive;
+    return s;
+}
+
+// A point on a unit sphere (longitude about +z from +x, latitude) or unit disk of an instance.
+Surface quadric_surface(Instance instance, float t, vec3 origin, vec3 direction)
+{
+    Surface s;
+    vec3 p = object_point(instance, origin) + t * object_vector(instance, direction);
+    bool sphere = instance.kind == INSTANCE_SPHERE;
+    if (sphere) p = normalize(p); else p.z = 0.0;
+    float r = length(p.xy);
+    float phi = r > 0.0 ? atan(p.y, p.x) : 0.0;
+    float u = phi * INV_TWO_PI;
+    u = u < 0.0 ? u + 1.0 : u;
+    s.uv = vec2(u, sphere ? 0.5 + asin(clamp(p.z, -1.0, 1.0)) * INV_PI : 1.0 - r);
+    s.object_position = p;
+    s.position = world_point(instance, p);
+    s.dpdu = world_vector(instance, 2.0 * PI * vec3(-p.y, p.x, 0.0));
+    s.geometric = normalize(world_normal(instance, sphere ? p : vec3(0.0, 0.0, 1.0)));
+    s.normal = s.geometric;
+    s.material = instance.material;
+    s.light = instance.light;
+    return s;
+}
+
+// The surface that a ray met: triangle and instance as in Hit.
+Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 direction)
+{
+#ifdef HAS_INSTANCES
+    uint owner = instance;
+    if (triangle != NONE) {
+        uint baked = fetch_triangles(triangle * TRIANGLE_WORDS).w;
+        if (baked != NONE) owner = baked;
+    }
+    Instance place = instance_fetch(owner);
+#if defined(HAS_SPHERES) || defined(HAS_DISKS)
+    if (triangle == NONE) return quadric_surface(place, t, origin, direction);
+#endif
+    return triangle_surface(triangle, place, place.in_world == 0u, origin, direction);
+#else
+    Instance place = instance_fetch(fetch_triangles(triangle * TRIANGLE_WORDS).w);
+    return triangle_surface(triangle, place, false, origin, direction);
+#endif
+}

@@ -1,0 +1,93 @@
+// The menu of lights, and the choice among them. Kinds that the scene does not use are left out by switches of the
+// variant: HAS_LIGHTS, HAS_ENVIRONMENT, and LIGHT_KINDS, a bit set of the kinds in the table.
+#include "light/punctual.glsl"
+#include "light/sphere.glsl"
+#include "light/quad.glsl"
+#include "light/flat.glsl"
+#include "light/environment.glsl"
+
+#define HAS_LIGHT(bit) ((LIGHT_KINDS >> (bit)) & 1)
+
+LightSample light_sample_one(Light light, vec3 from, vec2 u01)
+{
+    switch (light.kind) {
+#if HAS_LIGHT(0)
+    case LIGHT_POINT: return point_sample(light, from);
+#endif
+#if HAS_LIGHT(1)
+    case LIGHT_SPOT: return spot_sample(light, from);
+#endif
+#if HAS_LIGHT(2)
+    case LIGHT_DISTANT: return distant_sample(light);
+#endif
+#if HAS_LIGHT(3)
+    case LIGHT_SPHERE: return sphere_sample_light(light, from, u01);
+#endif
+#if HAS_LIGHT(4)
+    case LIGHT_QUAD: return quad_sample_light(light, from, u01);
+#endif
+#if HAS_LIGHT(5)
+    case LIGHT_DISK: return disk_sample_light(light, from, u01);
+#endif
+#if HAS_LIGHT(6)
+    case LIGHT_TRIANGLE: return triangle_sample_light(light, from, u01);
+#endif
+    default: return LIGHT_NOTHING;
+    }
+}
+
+// Chooses a light: the environment with its chance, else one of the table in proportion to its power. `pick` chooses
+// a slot of the alias table; u01.x first decides who owns it, and what is left of it is used again.
+LightSample light_sample(vec3 from, float pick, vec2 u01)
+{
+#ifdef HAS_ENVIRONMENT
+    if (pick < frame.environment_chance) {
+        LightSample s = environment_sample(pick / frame.environment_chance, u01);
+        s.pdf *= frame.environment_chance;
+        return s;
+    }
+    pick = (pick - frame.environment_chance) / (1.0 - frame.environment_chance);
+#endif
+#ifdef HAS_LIGHTS
+    uint slot = min(uint(pick * float(frame.light_count)), frame.light_count - 1u);
+    Light light = light_fetch(slot);
+    bool own = u01.x < light.accept;
+    u01.x = own ? u01.x / light.accept : (u01.x - light.accept) / (1.0 - light.accept);
+    if (!own) light = light_fetch(light.alias);
+    LightSample s = light_sample_one(light, from, u01);
+    s.pdf *= light.chance;
+    return s;
+#else
+    return LIGHT_NOTHING;
+#endif
+}
+
+// Density with which light_sample would have chosen a point on light `index`.
+float light_pdf(uint index, vec3 from, vec3 point, vec3 normal)
+{
+#ifdef HAS_LIGHTS
+    Light light = light_fetch(index);
+    float pdf = 0.0;
+    switch (light.kind) {
+#if HAS_LIGHT(3)
+    case LIGHT_SPHERE: pdf = sphere_light_pdf(light, from, point, normal); break;
+#endif
+#if HAS_LIGHT(4)
+    case LIGHT_QUAD: pdf = quad_light_pdf(light, from, point, normal); break;
+#endif
+    default: pdf = flat_light_pdf(light, from, point, normal); break;
+    }
+    return pdf * light.chance;
+#else
+    return 0.0;
+#endif
+}
+
+float environment_light_pdf(vec3 direction)
+{
+#ifdef HAS_ENVIRONMENT
+    return environment_pdf(direction) * frame.environment_chance;
+#else
+    return 0.0;
+#endif
+}

@@ -1,0 +1,80 @@
+// A rectangle: uniform over the solid angle that it fills (Ureña, Fajardo and King 2013). A parallelogram that is no
+// rectangle, and one too small or too far for that to be exact: uniform over its area.
+#include "light/sample.glsl"
+
+struct SphericalRectangle {
+    vec3 x; vec3 y; vec3 z;           // frame of the rectangle, seen from `from`
+    float x0; float x1; float y0; float y1; float z0;
+    float b0; float b1; float k;
+    float solid_angle;                // 0 = not to be used
+};
+
+const float SPHERICAL_RECTANGLE_LEAST = 1e-4; // steradians; below it float rounding is worse than uniform area
+
+SphericalRectangle spherical_rectangle(Light light, vec3 from)
+{
+    SphericalRectangle r;
+    float lx = length(light.edge_u);
+    float ly = length(light.edge_v);
+    r.x = light.edge_u / lx;
+    r.y = light.edge_v / ly;
+    r.z = cross(r.x, r.y);
+    vec3 d = light.position - from;
+    r.z0 = dot(d, r.z);
+    if (r.z0 > 0.0) {
+        r.z = -r.z;
+        r.z0 = -r.z0;
+    }
+    r.x0 = dot(d, r.x);
+    r.y0 = dot(d, r.y);
+    r.x1 = r.x0 + lx;
+    r.y1 = r.y0 + ly;
+    vec4 nz = vec4(r.y0, r.x1, r.y1, r.x0) * vec4(1.0, -1.0, -1.0, 1.0);
+    vec4 other = vec4(r.y0, r.x1, r.y1, r.x0);
+    nz = nz * inversesqrt(max(r.z0 * r.z0 + other * other, 1e-30));
+    float g0 = acos(clamp(-nz.x * nz.y, -1.0, 1.0));
+    float g1 = acos(clamp(-nz.y * nz.z, -1.0, 1.0));
+    float g2 = acos(clamp(-nz.z * nz.w, -1.0, 1.0));
+    float g3 = acos(clamp(-nz.w * nz.x, -1.0, 1.0));
+    r.b0 = nz.x;
+    r.b1 = nz.z;
+    r.k = 2.0 * PI - g2 - g3;
+    float solid_angle = g0 + g1 - r.k;
+    bool rectangle = abs(dot(r.x, r.y)) < 1e-4 && abs(r.z0) > 1e-6 * (lx + ly);
+    r.solid_angle = rectangle && solid_angle > SPHERICAL_RECTANGLE_LEAST && solid_angle < 6.22 ? solid_angle : 0.0;
+    return r;
+}
+
+// Position on the rectangle, in units of its edges.
+vec2 spherical_rectangle_sample(SphericalRectangle r, vec2 u01)
+{
+    float au = u01.x * r.solid_angle + r.k;
+    float fu = (cos(au) * r.b0 - r.b1) / sin(au);
+    float cu = clamp(inversesqrt(fu * fu + r.b0 * r.b0) * (fu > 0.0 ? 1.0 : -1.0), -1.0, 1.0);
+    float xu = -(cu * r.z0) * inversesqrt(max(1.0 - cu * cu, 1e-12));
+    xu = clamp(xu, r.x0, r.x1);
+    float d2 = xu * xu + r.z0 * r.z0;
+    float h0 = r.y0 * inversesqrt(d2 + r.y0 * r.y0);
+    float h1 = r.y1 * inversesqrt(d2 + r.y1 * r.y1);
+    float hv = h0 + u01.y * (h1 - h0);
+    float hv2 = hv * hv;
+    float yv = hv2 < 0.99999 ? hv * sqrt(d2) * inversesqrt(1.0 - hv2) : r.y1;
+    return vec2((xu - r.x0) / (r.x1 - r.x0), clamp((yv - r.y0) / (r.y1 - r.y0), 0.0, 1.0));
+}
+
+LightSample quad_sample_light(Light light, vec3 from, vec2 u01)
+{
+    SphericalRectangle r = spherical_rectangle(light, from);
+    bool spherical = r.solid_angle > 0.0;
+    vec2 at = spherical ? spherical_rectangle_sample(r, u01) : u01;
+    vec3 point = light.position + at.x * light.edge_u + at.y * light.edge_v;
+    vec3 normal = normalize(cross(light.edge_u, light.edge_v));
+    float pdf = spherical ? 1.0 / r.solid_angle : area_to_solid_angle(light.b, from, point, normal);
+    return light_surface_point(light, from, point, normal, pdf, at);
+}
+
+float quad_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)
+{
+    SphericalRectangle r = spherical_rectangle(light, from);
+    return r.solid_angle > 0.0 ? 1.0 / r.solid_angle : area_to_solid_angle(light.b, from, point, normal);
+}

@@ -1,0 +1,50 @@
+// What sampling a light gives, and what every light draws from.
+#include "shared/bindings.glsl"
+#include "base/sampling.glsl"
+#include "texture/context.glsl"
+#include "generated/textures.glsl"
+
+struct LightSample {
+    vec3 wi;          // unit direction to the light
+    vec3 point;       // point on the light; unused when infinite
+    vec3 normal;      // normal there, towards the receiver; 0 for a light without surface
+    vec3 radiance;    // arriving, before visibility; intensity / d² or irradiance for a light without extent
+    float pdf;        // solid angle; 1 for a light without extent; 0 = no light arrives
+    bool delta;       // without extent: the BSDF cannot find it
+    bool infinite;
+};
+
+const LightSample LIGHT_NOTHING = LightSample(vec3(0, 0, 1), vec3(0), vec3(0), vec3(0), 0.0, true, false);
+
+Light light_fetch(uint i)
+{
+    uint w = i * LIGHT_WORDS;
+    return light_unpack(fetch_lights(w), fetch_lights(w + 1u), fetch_lights(w + 2u), fetch_lights(w + 3u),
+                        fetch_lights(w + 4u), fetch_lights(w + 5u), fetch_lights(w + 6u));
+}
+
+// A point on a surface light, chosen with the solid-angle density `pdf`.
+LightSample light_surface_point(Light light, vec3 from, vec3 point, vec3 normal, float pdf, vec2 uv)
+{
+    vec3 to = point - from;
+    vec3 wi = normalize(to);
+    float facing = -dot(wi, normal);
+    if (!(pdf > 0.0) || (facing <= 0.0 && light.two_sided == 0u) || facing == 0.0) return LIGHT_NOTHING;
+    vec3 radiance = light.radiance;
+#ifdef TEXTURED_EMISSION
+    if (light.texture != NONE) {
+        TextureContext context = TextureContext(point, point, uv, normal, 0.0, 0.0);
+        radiance *= texture_evaluate(light.texture, context).rgb;
+    }
+#endif
+    return LightSample(wi, point, facing < 0.0 ? -normal : normal, radiance, pdf, false, false);
+}
+
+// Density over solid angle of a uniform choice over `area`.
+float area_to_solid_angle(float area, vec3 from, vec3 point, vec3 normal)
+{
+    vec3 to = point - from;
+    float d2 = dot(to, to);
+    float facing = abs(dot(to, normal)) * inversesqrt(d2);
+    return facing > 0.0 ? d2 / (facing * area) : 0.0;
+}

@@ -1,0 +1,32 @@
+// What a material is at one point: the numbers that all lobes draw from, in the frame of the shading normal.
+#include "base/math.glsl"
+#include "shared/layout.glsl"
+
+struct Bsdf {
+    uint kind;       // MATERIAL_…
+    uint mode;       // FRESNEL_…, or 1 = thin glass
+    vec3 color;      // reflectance or diffuse coefficient
+    vec3 specular;   // specular coefficient, or η of a conductor
+    vec3 k;          // k of a conductor
+    float ior;       // index behind the geometric surface over index in front of it
+    float exponent;
+    vec2 alpha;      // GGX widths; both 0 = smooth
+};
+
+struct BsdfSample {
+    vec3 wi;         // local
+    vec3 weight;     // f · |cos θ| / pdf; 0 = absorbed
+    float pdf;       // solid angle; 0 = a mirror direction
+    float eta;       // index ratio when light went through, else 1
+    bool through;    // wi is on the other side
+};
+
+const BsdfSample BSDF_ABSORBED = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, 1.0, false);
+
+// Rougher than this is a microfacet lobe, smoother a mirror (as in pbrt-v4).
+bool bsdf_is_smooth(Bsdf b) { return max(b.alpha.x, b.alpha.y) < 1e-3; }
+
+bool bsdf_is_specular(Bsdf b)
+{
+    return (b.kind == MATERIAL_CONDUCTOR || b.kind == MATERIAL_DIELECTRIC) && bsdf_is_smooth(b);
+}

@@ -1,0 +1,47 @@
+// Metal: a mirror, or GGX microfacets.
+#include "material/bsdf.glsl"
+#include "material/fresnel.glsl"
+#include "material/ggx.glsl"
+
+vec3 conductor_fresnel(Bsdf b, float cos_i)
+{
+    if (b.mode == FRESNEL_NONE) return b.color;
+    if (b.mode == FRESNEL_SCHLICK) return fresnel_schlick(cos_i, b.color);
+    vec3 eta = b.mode == FRESNEL_INDEX ? b.specular : vec3(1.0);
+    // With η = 1, R = k² / (4 + k²) at normal incidence.
+    vec3 r = clamp(b.color, 0.0, 0.9999);
+    vec3 k = b.mode == FRESNEL_INDEX ? b.k : 2.0 * sqrt(r) / sqrt(1.0 - r);
+    return fresnel_conductor(cos_i, eta, k);
+}
+
+vec3 conductor_eval(Bsdf b, vec3 wo, vec3 wi)
+{
+    vec3 m = wo + wi;
+    if (bsdf_is_smooth(b) || wi.z * wo.z <= 0.0 || dot(m, m) == 0.0) return vec3(0.0);
+    m = normalize(m);
+    float scale = ggx_distribution(m, b.alpha) * ggx_masking_shadowing(wo, wi, b.alpha) / (4.0 * abs(wo.z * wi.z));
+    return conductor_fresnel(b, abs(dot(wo, m))) * scale;
+}
+
+float conductor_pdf(Bsdf b, vec3 wo, vec3 wi)
+{
+    vec3 m = wo + wi;
+    if (bsdf_is_smooth(b) || wi.z * wo.z <= 0.0 || dot(m, m) == 0.0) return 0.0;
+    m = normalize(m);
+    m = m.z * wo.z < 0.0 ? -m : m;
+    vec3 up = wo.z < 0.0 ? vec3(1.0, 1.0, -1.0) : vec3(1.0);
+    return ggx_visible_pdf(wo * up, m * up, b.alpha) / (4.0 * abs(dot(wo, m)));
+}
+
+BsdfSample conductor_sample(Bsdf b, vec3 wo, float lobe, vec2 u01)
+{
+    if (bsdf_is_smooth(b)) {
+        return BsdfSample(vec3(-wo.xy, wo.z), conductor_fresnel(b, abs(wo.z)), 0.0, 1.0, false);
+    }
+    vec3 up = wo.z < 0.0 ? vec3(1.0, 1.0, -1.0) : vec3(1.0);
+    vec3 m = ggx_visible_sample(wo * up, b.alpha, u01) * up;
+    vec3 wi = reflect(-wo, m);
+    float pdf = conductor_pdf(b, wo, wi);
+    if (wi.z * wo.z <= 0.0 || pdf <= 0.0) return BSDF_ABSORBED;
+    return BsdfSample(wi, conductor_eval(b, wo, wi) * (abs(wi.z) / pdf), pdf, 1.0, false);
+}

@@ -1,0 +1,40 @@
+// The first rays: one a slot of the wave.
+#include "stages/wave.glsl"
+#include "base/sampling.glsl"
+#include "camera/thin_lens.glsl"
+
+// Where on the film a sample lies, in pixels: the filter is sampled in proportion to its value.
+vec2 film_position(SlotPlace place, SampleKey key)
+{
+    vec2 u01 = sample_pixel(key, DIMENSION_PIXEL);
+#if FILTER == FILTER_BOX
+    vec2 offset = 2.0 * u01 - 1.0;
+#elif FILTER == FILTER_TENT
+    vec2 offset = vec2(tent_sample(u01.x), tent_sample(u01.y));
+#elif FILTER == FILTER_GAUSSIAN
+    vec2 offset = vec2(gaussian_sample(u01.x), gaussian_sample(u01.y));
+#else
+    vec2 offset = vec2(blackman_harris_sample(u01.x), blackman_harris_sample(u01.y));
+#endif
+    return vec2(place.pixel) + 0.5 + offset * frame.filter_radius;
+}
+
+void main()
+{
+    uint group = interleaved_group(frame.slot_count / WORKGROUP);
+    uint slot = group * WORKGROUP + gl_LocalInvocationIndex;
+    if (slot >= frame.slot_count) return;
+    // The wave starts with the first half of the path queue full; advance.comp takes its turn before the first round.
+    if (slot == 0u) {
+        counters[COUNTER_TURN] = 1u;
+        counters[COUNTER_PATHS] = frame.slot_count;
+        counters[COUNTER_SHADOWS] = 0u;
+    }
+    SlotPlace place = slot_place(slot);
+    SampleKey key = slot_key(place);
+    CameraRay ray = thin_lens_sample(film_position(place, key) / vec2(frame.film_size), sample_2d(key, DIMENSION_LENS));
+    ray_store(slot, ray.origin, ray.direction);
+    path_store(slot, Path(vec3(1.0), 0.0, vec3(0.0), 0u, 0u, 0u, NONE, 1.0));
+    // Tiles at the edge reach beyond the window: those slots are not queued, and the film leaves them out.
+    queue[path_queue(0u, slot)] = place.inside ? slot : NONE;
+}

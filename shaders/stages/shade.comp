@@ -1,0 +1,163 @@
+// One scattering event of every path in the queue: emission, light sampling, and the next direction.
+// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, ROULETTE, GEOMETRIC_VETO and those of the menus.
+#include "stages/wave.glsl"
+#include "base/offset.glsl"
+#include "geometry/surface.glsl"
+#include "material/material.glsl"
+#include "light/light.glsl"
+
+const uint SHADOW_WORDS = 3u;
+const uint AOV_WORDS = 2u;
+
+// Indirect light of a sample may be limited (firefly_clamp); direct light is not.
+vec3 limited(vec3 radiance, uint depth)
+{
+    float most = max_component(radiance);
+    bool clamped = frame.firefly_clamp > 0.0 && depth > 1u && most > frame.firefly_clamp;
+    return clamped ? radiance * (frame.firefly_clamp / most) : radiance;
+}
+
+// Light that the ray met by itself, weighted against light sampling having found it.
+void add_emission(inout Path path, vec3 radiance, float light_sampling_pdf)
+{
+    float weight = path.pdf > 0.0 ? power_heuristic(path.pdf, light_sampling_pdf) : 1.0;
+    path.radiance += limited(path.throughput * radiance * weight, path.depth);
+}
+
+void shade_miss(inout Path path, vec3 direction)
+{
+#ifdef HAS_ENVIRONMENT
+    add_emission(path, environment_radiance(direction), path.pdf > 0.0 ? environment_light_pdf(direction) : 0.0);
+#endif
+}
+
+// Sends a shadow ray to a light and puts what it may bring into the shadow queue.
+void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, SampleKey key, bool last, uint slot, uint next)
+{
+    float pick = sample_1d(key, bounce_dimension(path.depth, DIMENSION_LIGHT_PICK));
+    LightSample light = light_sample(surface.position, pick, sample_2d(key, bounce_dimension(path.depth, DIMENSION_LIGHT)));
+    vec3 wi = basis_to_local(basis, light.wi);
+    vec3 f = bsdf_eval(bsdf, wo, wi) * abs(wi.z);
+    if (!(light.pdf > 0.0) || max_component(f) <= 0.0) return;
+    float side = dot(light.wi, surface.geometric);
+#ifdef GEOMETRIC_VETO
+    if (side * wi.z <= 0.0) return;
+#endif
+    // The path ends here when `last`: then the BSDF will not look for the light.
+    float weight = light.delta || last ? 1.0 : power_heuristic(light.pdf, bsdf_pdf(bsdf, wo, wi));
+    vec3 radiance = limited(path.throughput * f * light.radiance * (weight / light.pdf), path.depth + 1u);
+    vec3 origin = offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric);
+    vec3 target = offset_ray_origin(light.point, light.normal);
+    vec3 direction = light.infinite ? light.wi : target - origin;
+    store_shadows(slot * SHADOW_WORDS, uvec4(floatBitsToUint(origin), floatBitsToUint(light.infinite ? FAR : 1.0)));
+    store_shadows(slot * SHADOW_WORDS + 1u, uvec4(floatBitsToUint(direction), 0u));
+    store_shadows(slot * SHADOW_WORDS + 2u, uvec4(floatBitsToUint(radiance), 0u));
+    shadow_append(next, slot);
+}
+
+// Chooses the next direction; false when the path ends.
+bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, SampleKey key, uint slot)
+{
+    float lobe = sample_1d(key, bounce_dimension(path.depth, DIMENSION_LOBE));
+    BsdfSample s = bsdf_sample(bsdf, wo, lobe, sample_2d(key, bounce_dimension(path.depth, DIMENSION_BSDF)));
+    vec3 wi = basis_to_world(basis, s.wi);
+    float side = dot(wi, surface.geometric);
+    if (max_component(s.weight) <= 0.0) return false;
+#ifdef GEOMETRIC_VETO
+    if (side * s.wi.z <= 0.0) return false;
+#endif
+    path.throughput *= s.weight;
+    path.pdf = s.pdf;
+    if (s.pdf > 0.0) path.diffuse_depth += 1u;
+#ifdef HAS_DIELECTRIC
+    if (s.through) {
+        path.eta_scale *= s.eta * s.eta;
+        path.medium = bsdf.mode != 1u && side < 0.0 ? surface.material : NONE;
+    }
+#endif
+    path.depth += 1u;
+#ifdef ROULETTE
+    float survival = max_component(path.throughput) * path.eta_scale;
+    if (path.depth > 2u && survival < 1.0) {
+        if (sample_1d(key, bounce_dimension(path.depth - 1u, DIMENSION_ROULETTE)) >= survival) return false;
+        path.throughput /= survival;
+    }
+#endif
+    ray_store(slot, offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric), wi);
+    return true;
+}
+
+// Albedo, depth and normal of the first surface that is neither mirror nor clear glass.
+void write_aov(uint slot, inout Path path, Surface surface, Bsdf bsdf)
+{
+    vec3 albedo = bsdf.kind == MATERIAL_DIELECTRIC ? vec3(1.0) : bsdf.color;
+    if (bsdf.kind == MATERIAL_PHONG) albedo += bsdf.specular;
+    float depth = distance(frame.camera_position, surface.position);
+    store_aovs(slot * AOV_WORDS, uvec4(floatBitsToUint(albedo), floatBitsToUint(depth)));
+    store_aovs(slot * AOV_WORDS + 1u, uvec4(floatBitsToUint(surface.normal), 0u));
+    path.flags |= PATH_HAS_AOV;
+}
+
+// One event; true when the path goes on.
+bool shade(uint slot, inout Path path, uvec4 hit, uint next)
+{
+    WaveRay ray = ray_load(slot);
+    if (hit.w == HIT_MISS) {
+        shade_miss(path, ray.direction);
+        return false;
+    }
+    path.flags |= PATH_COVERED;
+    Surface surface = surface_at(uintBitsToFloat(hit.x), hit.y, hit.z, ray.origin, ray.direction);
+    bool front = dot(ray.direction, surface.geometric) < 0.0;
+    if (!front && surface.material == NONE) return false;
+#ifdef HAS_MEDIUM
+    // Beer's law along the way inside glass
+    if (path.medium != NONE) {
+        vec3 absorption = uintBitsToFloat(fetch_materials(path.medium * MATERIAL_WORDS + 2u).xyz);
+        path.throughput *= exp(-absorption * distance(ray.origin, surface.position));
+    }
+#endif
+    Material material = material_fetch(surface.material);
+    vec3 facing_normal = front ? surface.normal : -surface.normal;
+    TextureContext context =
+        TextureContext(surface.position, surface.object_position, surface.uv, facing_normal, 0.0, 0.0);
+    Bsdf bsdf = material_bsdf(material, context);
+    if (front || material.two_sided != 0u) {
+        float pdf = 0.0;
+        if (path.pdf > 0.0 && surface.light != NONE) pdf = light_pdf(surface.light, ray.origin, surface.position, surface.geometric);
+        add_emission(path, material_emission(material, context), pdf);
+    }
+    if (bsdf.kind == MATERIAL_UNLIT) path.radiance += limited(path.throughput * bsdf.color, path.depth);
+    bool specular = bsdf_is_specular(bsdf);
+    if ((path.flags & PATH_HAS_AOV) == 0u && !specular) write_aov(slot, path, surface, bsdf);
+    if (path.depth >= frame.max_depth || bsdf.kind == MATERIAL_UNLIT) return false;
+
+    Basis basis = basis_along(surface.normal, surface.dpdu);
+    vec3 wo = basis_to_local(basis, -ray.direction);
+    SampleKey key = slot_key(slot_place(slot));
+    bool last = !specular && path.diffuse_depth >= frame.diffuse_bounces;
+#if defined(HAS_LIGHTS) || defined(HAS_ENVIRONMENT)
+    if (!specular) sample_direct_light(path, surface, bsdf, basis, wo, key, last, slot, next);
+#endif
+    return !last && scatter(path, surface, bsdf, basis, wo, key, slot);
+}
+
+void main()
+{
+    uint turn = counters[COUNTER_TURN];
+    uint count = counters[COUNTER_PATHS + turn];
+    uint i = interleaved_group((count + WORKGROUP - 1u) / WORKGROUP) * WORKGROUP + gl_LocalInvocationIndex;
+    if (i >= count) return;
+    uint slot = queue[path_queue(turn, i)];
+    if (slot == NONE) return;
+    // A path waits while its own ray or its last shadow ray is parked.
+    uvec4 hit = fetch_hits(slot);
+    bool waits = hit.w == HIT_PARKED || fetch_shadows(slot * SHADOW_WORDS + 2u).w != 0u;
+    bool goes_on = waits;
+    if (!waits) {
+        Path path = path_load(slot);
+        goes_on = shade(slot, path, hit, 1u - turn);
+        path_store(slot, path);
+    }
+    if (goes_on) path_append(1u - turn, slot);
+}

@@ -1,0 +1,90 @@
+// Pictures in the atlas: our own wrapping and filtering, so that a value does not depend on a driver.
+#include "shared/bindings.glsl"
+#include "texture/context.glsl"
+
+// Texel formats, chosen by the generated code.
+const uint TEXELS_RGBA8 = 0u;      // a word holds 2×2 texels
+const uint TEXELS_RGBA8_SRGB = 1u; // the same; colour is decoded before it is filtered
+const uint TEXELS_RGBA16F = 2u;    // a word holds 2×1 texels
+const uint TEXELS_RGBA32F = 3u;    // a word holds 1 texel
+
+ImageTexture image_texture_fetch(uint w)
+{
+    return image_texture_unpack(fetch_textures(w), fetch_textures(w + 1u), fetch_textures(w + 2u));
+}
+
+// IEC 61966-2-1.
+vec3 srgb_decode(vec3 c)
+{
+    vec3 low = c * (1.0 / 12.92);
+    vec3 high = pow((c + 0.055) * (1.0 / 1.055), vec3(2.4));
+    return vec3(c.x <= 0.04045 ? low.x : high.x, c.y <= 0.04045 ? low.y : high.y, c.z <= 0.04045 ? low.z : high.z);
+}
+
+uint lane_of(uvec4 word, uint lane)
+{
+    uint low = lane == 0u ? word.x : word.y;
+    uint high = lane == 2u ? word.z : word.w;
+    return lane < 2u ? low : high;
+}
+
+// The texel in column x and row y (row 0 on top), both in range.
+vec4 texel(ImageTexture image, uint format, uint x, uint y)
+{
+    if (format == TEXELS_RGBA32F) return uintBitsToFloat(fetch_texels(image.base + y * image.pitch + x));
+    if (format == TEXELS_RGBA16F) {
+        uvec4 word = fetch_texels(image.base + y * image.pitch + (x >> 1));
+        uvec2 halves = (x & 1u) == 0u ? word.xy : word.zw;
+        return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
+    }
+    uvec4 word = fetch_texels(image.base + (y >> 1) * image.pitch + (x >> 1));
+    vec4 value = unpackUnorm4x8(lane_of(word, (x & 1u) + 2u * (y & 1u)));
+    if (format == TEXELS_RGBA8_SRGB) value.rgb = srgb_decode(value.rgb);
+    return value;
+}
+
+// A texel index outside 0..n to one inside; `outside` is set where the picture is black.
+uint wrap_index(int i, int n, uint mode, inout bool outside)
+{
+    int turns = int(floor(float(i) / float(n)));
+    int rest = clamp(i - turns * n, 0, n - 1);
+    if (mode == WRAP_REPEAT) return uint(rest);
+    if (mode == WRAP_MIRROR) return uint((turns & 1) == 0 ? rest : n - 1 - rest);
+    outside = outside || (mode == WRAP_BLACK && (i < 0 || i >= n));
+    return uint(clamp(i, 0, n - 1));
+}
+
+vec4 wrapped_texel(ImageTexture image, uint format, ivec2 at)
+{
+    bool outside = false;
+    uint x = wrap_index(at.x, int(image.size.x), image.flags & 3u, outside);
+    uint y = wrap_index(at.y, int(image.size.y), (image.flags >> 2) & 3u, outside);
+    return outside ? vec4(0.0) : texel(image, format, x, y);
+}
+
+// The value of the picture at a uv: nearest, or bilinear with texel centres at (i + ½) / n, each of the four texels
+// wrapped by itself. The limit keeps a wild uv within the integers that a float holds.
+vec4 image_lookup(ImageTexture image, uint format, vec2 uv)
+{
+    vec2 st = clamp(image.uv_column0 * uv.x + image.uv_column1 * uv.y + image.uv_offset, -16384.0, 16384.0);
+    vec2 p = vec2(st.x, 1.0 - st.y) * vec2(image.size);
+    if ((image.flags & FLAG_NEAREST) != 0u) return wrapped_texel(image, format, ivec2(floor(p)));
+    p -= 0.5;
+    vec2 corner = floor(p);
+    vec2 f = p - corner;
+    ivec2 i = ivec2(corner);
+    vec4 top = mix(wrapped_texel(image, format, i), wrapped_texel(image, format, i + ivec2(1, 0)), f.x);
+    vec4 bottom = mix(wrapped_texel(image, format, i + ivec2(0, 1)), wrapped_texel(image, format, i + ivec2(1, 1)), f.x);
+    return mix(top, bottom, f.y);
+}
+
+// The texture whose record starts at word w: channel, inversion and factor applied. Alpha is kept.
+vec4 image_texture(uint w, uint format, TextureContext context)
+{
+    ImageTexture image = image_texture_fetch(w);
+    vec4 value = image_lookup(image, format, context.uv);
+    uint channel = (image.flags >> CHANNEL_SHIFT) & 7u;
+    if (channel != 0u) value.rgb = vec3(channel == 1u ? value.r : channel == 2u ? value.g : channel == 3u ? value.b : value.a);
+    if ((image.flags & FLAG_INVERT) != 0u) value.rgb = 1.0 - value.rgb;
+    return vec4(value.rgb * image.scale, value.a);
+}
