@@ -16,7 +16,7 @@ const uint REFERENCE_LEAVE_INSTANCE = 0xfffffffeu;
 
 struct Traversal { uint current; uint depth; uint instance; Hit hit; };
 
-uint traversal_stack[STACK_ENTRIES];
+uint traversal_stack[TRAVERSAL_STACK];
 
 Traversal traversal_start(float t_max)
 {

@@ -18,8 +18,8 @@ pub const WORKGROUP: u32 = 64;
 pub const TILE: u32 = 8;
 /// Bytes of the word that kernels read.
 pub const WORD_BYTES: u64 = 16;
-/// Entries of the traversal stack in the kernels. `prepare` proves that every tree fits.
-pub const STACK_ENTRIES: u32 = 48;
+/// Most entries that the traversal stack of a kernel may have. `prepare` proves that every tree fits.
+pub const STACK_ENTRIES: u32 = 96;
 /// Words a pixel of the film: see [`crate::film`].
 pub const FILM_PLANES: u32 = 9;
 /// log₂ of the unit of the sums of albedo and normal.

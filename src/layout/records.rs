@@ -356,7 +356,7 @@ pub const CONSTANTS: &[(&str, u32, &str)] = &[
     ("NONE", NONE, "no object"),
     ("WORKGROUP", WORKGROUP, "local_size_x of every kernel"),
     ("TILE", TILE, "side of a tile of pixels, one workgroup"),
-    ("STACK_ENTRIES", STACK_ENTRIES, "entries of the traversal stack; prepare proves that they are enough"),
+    ("STACK_ENTRIES", STACK_ENTRIES, "most entries of the traversal stack; a variant has TRAVERSAL_STACK"),
     ("FILM_PLANES", FILM_PLANES, "words of the film a pixel"),
     ("LEAF", LEAF, "bit of a child reference: a leaf; bits 27..30 hold its primitives less one, bits 0..27 the first"),
     ("LEAF_INSTANCE", LEAF_INSTANCE, "bit of a leaf reference: bits 0..27 are an instance"),

@@ -1,1 +1,171 @@
-//! x
+//! [`Scene`] → [`Prepared`]: trees, records, atlas, light tables and the GLSL of textures. No Vulkan in here.
+//!
+//! Deterministic: the same scene gives the same bytes with any number of threads.
+
+mod alias;
+mod atlas;
+pub mod bvh;
+mod environment;
+mod geometry;
+mod lights;
+mod materials;
+mod textures;
+mod variant;
+
+pub use variant::{Stage, defines};
+
+use crate::Result;
+use crate::layout::{EnvironmentCell, Face, Instance, Light, Material, Node, Triangle, Vertex};
+use crate::scene::Scene;
+use glam::Vec3;
+
+/// Everything that the kernels need of a scene, as plain records in the order of the bindings.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Prepared {
+    /// Nodes of all trees.
+    pub nodes: Vec<Node>,
+    /// Triangles of all trees, each tree's in its own order.
+    pub triangles: Vec<Triangle>,
+    /// Shading data of triangles.
+    pub faces: Vec<Face>,
+    /// Shading data of vertices.
+    pub vertices: Vec<Vertex>,
+    /// Shapes and meshes in the world.
+    pub instances: Vec<Instance>,
+    /// Materials, indexed as in the scene.
+    pub materials: Vec<Material>,
+    /// Words of the texture records.
+    pub textures: Vec<[u32; 4]>,
+    /// Words of the atlas pages.
+    pub texels: Vec<[u32; 4]>,
+    /// The table of lights.
+    pub lights: Vec<Light>,
+    /// Importance table of an environment image, row by row; v grows with the row.
+    pub environment: Vec<EnvironmentCell>,
+    /// Columns and rows of that table.
+    pub environment_size: [u32; 2],
+    /// Texture reference of the environment, or NONE.
+    pub environment_texture: u32,
+    /// Chance of choosing the environment when a light is chosen.
+    pub environment_chance: f32,
+    /// Where rays start: a reference as in [`Node`], or NONE in an empty scene.
+    pub root: u32,
+    /// Entries of the traversal stack that no ray exceeds.
+    pub stack_entries: u32,
+    /// GLSL of the texture trees: the virtual file `generated/textures.glsl`.
+    pub texture_glsl: String,
+    /// What the scene uses: decides the variants of the kernels.
+    pub features: Features,
+    /// log₂ of the unit of the sums of radiance.
+    pub radiance_exponent: i32,
+    /// log₂ of the unit of the sums of depth.
+    pub depth_exponent: i32,
+    /// Bounds of everything.
+    pub bounds: Bounds,
+    /// Surface area cost of the trees, by triangles (see [`bvh::Tree::cost`]); of the largest.
+    pub bvh_cost: f32,
+    /// Seconds that building the trees took. Not part of the bytes that must repeat.
+    pub bvh_seconds: Seconds,
+}
+
+/// A duration that is equal to every other, so that [`Prepared`] can be compared.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Seconds(pub f64);
+
+impl PartialEq for Seconds {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// An axis-aligned box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Least corner.
+    pub min: Vec3,
+    /// Greatest corner.
+    pub max: Vec3,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY }
+    }
+}
+
+impl Bounds {
+    /// Grows the box to hold a point.
+    pub fn add(&mut self, p: Vec3) {
+        self.min = self.min.min(p);
+        self.max = self.max.max(p);
+    }
+
+    /// Length of the diagonal; 0 when the box is empty.
+    pub fn diagonal(&self) -> f32 {
+        if self.min.x <= self.max.x { (self.max - self.min).length() } else { 0.0 }
+    }
+}
+
+/// What a scene uses. Code for what it does not use is left out of its kernels.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Features {
+    /// A tree over instances, not only triangles in world space.
+    pub instances: bool,
+    /// Spheres.
+    pub spheres: bool,
+    /// Disks.
+    pub disks: bool,
+    /// Bit set of the `MATERIAL_…` kinds.
+    pub material_kinds: u32,
+    /// Bit set of the `LIGHT_…` kinds.
+    pub light_kinds: u32,
+    /// An environment that is not black.
+    pub environment: bool,
+    /// An environment from a picture.
+    pub environment_image: bool,
+    /// A colour that a texture drives.
+    pub textured_color: bool,
+    /// A specular colour that a texture drives.
+    pub textured_specular: bool,
+    /// An exponent that a texture drives.
+    pub textured_exponent: bool,
+    /// A roughness that a texture drives.
+    pub textured_alpha: bool,
+    /// An emission that a texture drives.
+    pub textured_emission: bool,
+    /// Glass that absorbs.
+    pub medium: bool,
+    /// A lens that is no pinhole.
+    pub lens: bool,
+}
+
+/// Prepares a scene.
+pub fn prepare(scene: &Scene) -> Result<Prepared> {
+    let mut out = Prepared {
+        root: crate::layout::NONE,
+        environment_texture: crate::layout::NONE,
+        ..Prepared::default()
+    };
+    let textures = textures::prepare(scene, &mut out)?;
+    materials::prepare(scene, &textures, &mut out);
+    let placed = geometry::prepare(scene, &mut out)?;
+    lights::prepare(scene, &textures, placed, &mut out);
+    environment::prepare(scene, &textures, &mut out);
+    out.features.lens = scene.camera.lens.is_some();
+    choose_units(scene, &mut out);
+    Ok(out)
+}
+
+/// Units of the fixed-point sums: 2³⁰ steps up to the brightest light, and 2²⁴ across the scene.
+fn choose_units(scene: &Scene, out: &mut Prepared) {
+    let environment = scene.environment.as_ref().map_or(0.0, |e| match e.radiance {
+        crate::scene::Value::Constant(c) => c.max_element() * e.scale,
+        crate::scene::Value::Texture(_) => e.scale,
+    });
+    let lights = out.lights.iter().map(|light| Vec3::from(light.radiance).max_element());
+    let surfaces = out.materials.iter().map(|m| Vec3::from(m.emission).max(Vec3::from(m.color)).max_element());
+    let brightest = lights.chain(surfaces).fold(environment.max(1.0), f32::max);
+    out.radiance_exponent = (brightest.log2().ceil() as i32 - 30).clamp(-60, 60);
+    let far = out.bounds.diagonal().max(1e-6);
+    out.depth_exponent = (far.log2().ceil() as i32 - 24).clamp(-60, 60);
+}

@@ -52,7 +52,7 @@ pub enum Wrap {
 }
 
 /// How stored numbers become linear light. Alpha is always linear.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ColorSpace {
     /// IEC 61966-2-1.
     Srgb,

@@ -1,0 +1,197 @@
+//! Pictures packed into atlas pages: rectangles of words of which each holds a block of texels.
+//!
+//! Each picture keeps its own size; nothing lies between neighbours, because the kernels filter by themselves and never
+//! read outside a picture.
+
+use crate::scene::{ColorSpace, Handle, Image, ImageTexture, Scene, Texels};
+use crate::{Error, Result};
+use etagere::{AtlasAllocator, size2};
+use half::f16;
+use std::collections::BTreeMap;
+
+/// How texels are kept: what the kernels call `TEXELS_…`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Format {
+    /// 2×2 texels a word, linear.
+    Rgba8,
+    /// 2×2 texels a word, sRGB.
+    Rgba8Srgb,
+    /// 2×1 texels a word.
+    Rgba16F,
+    /// 1 texel a word.
+    RgbaF32,
+}
+
+impl Format {
+    /// Name of the constant in `texture/image.glsl`.
+    pub(super) fn glsl_name(self) -> &'static str {
+        match self {
+            Self::Rgba8 => "TEXELS_RGBA8",
+            Self::Rgba8Srgb => "TEXELS_RGBA8_SRGB",
+            Self::Rgba16F => "TEXELS_RGBA16F",
+            Self::RgbaF32 => "TEXELS_RGBA32F",
+        }
+    }
+
+    /// Texels of a word in x and y.
+    fn block(self) -> [u32; 2] {
+        match self {
+            Self::Rgba8 | Self::Rgba8Srgb => [2, 2],
+            Self::Rgba16F => [2, 1],
+            Self::RgbaF32 => [1, 1],
+        }
+    }
+}
+
+/// Columns of words of a page; a wider picture gets a page of its own width.
+const PAGE_WIDTH: u32 = 512;
+/// Rows of words that a page may grow to; a higher picture gets a page of its own height.
+const PAGE_HEIGHT: u32 = 4096;
+
+struct Page {
+    format: Format,
+    allocator: AtlasAllocator,
+    width: u32,
+    words: Vec<[u32; 4]>,
+}
+
+/// Where a picture is: page, and word in it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    page: usize,
+    word: u32,
+    pub(super) format: Format,
+}
+
+/// Pages that are being filled. A picture that several textures read in the same way is kept once.
+#[derive(Default)]
+pub(super) struct Atlas {
+    pages: Vec<Page>,
+    kept: BTreeMap<(Handle<Image>, ColorSpace), Place>,
+}
+
+impl Atlas {
+    /// Puts the picture of a texture on a page, unless it is there.
+    pub(super) fn place(&mut self, scene: &Scene, texture: &ImageTexture) -> Result<Place> {
+        let key = (texture.image, texture.color_space);
+        if let Some(place) = self.kept.get(&key) {
+            return Ok(*place);
+        }
+        let (image, name) = (&scene.images[texture.image], scene.images.name(texture.image));
+        let format = format_of(image, texture.color_space);
+        let [bx, by] = format.block();
+        let size = [image.width.div_ceil(bx).max(1), image.height.div_ceil(by).max(1)];
+        let (page, corner) = self.allocate(format, size).ok_or_else(|| {
+            Error::scene(format!("picture `{name}` of {} x {} does not fit the atlas", image.width, image.height))
+        })?;
+        let target = &mut self.pages[page];
+        let rows = (corner[1] + size[1]) as usize * target.width as usize;
+        if target.words.len() < rows {
+            target.words.resize(rows, [0; 4]);
+        }
+        let word = corner[1] * target.width + corner[0];
+        let read = Reader { image, decode: texture.color_space == ColorSpace::Srgb };
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                target.words[(word + y * target.width + x) as usize] = read.block(format, x, y);
+            }
+        }
+        let place = Place { page, word, format };
+        self.kept.insert(key, place);
+        Ok(place)
+    }
+
+    fn allocate(&mut self, format: Format, [w, h]: [u32; 2]) -> Option<(usize, [u32; 2])> {
+        let size = size2(i32::try_from(w).ok()?, i32::try_from(h).ok()?);
+        let corner = |a: etagere::Allocation| [a.rectangle.min.x as u32, a.rectangle.min.y as u32];
+        for (i, page) in self.pages.iter_mut().enumerate().filter(|(_, page)| page.format == format) {
+            if let Some(found) = page.allocator.allocate(size) {
+                return Some((i, corner(found)));
+            }
+        }
+        let (width, height) = (PAGE_WIDTH.max(w), PAGE_HEIGHT.max(h));
+        let mut allocator = AtlasAllocator::new(size2(width as i32, height as i32));
+        let found = allocator.allocate(size)?;
+        self.pages.push(Page { format, allocator, width, words: Vec::new() });
+        Some((self.pages.len() - 1, corner(found)))
+    }
+
+    /// First word and pitch of a picture, once all are placed.
+    pub(super) fn address(&self, place: Place) -> (u32, u32) {
+        let before: usize = self.pages[..place.page].iter().map(|page| page.words.len()).sum();
+        (before as u32 + place.word, self.pages[place.page].width)
+    }
+
+    /// All pages one after the other.
+    pub(super) fn into_words(self) -> Vec<[u32; 4]> {
+        self.pages.into_iter().flat_map(|page| page.words).collect()
+    }
+}
+
+/// 8 bits stay as they are; halves where they hold every texel exactly; else floats.
+fn format_of(image: &Image, space: ColorSpace) -> Format {
+    match (&image.texels, space) {
+        (Texels::Rgba8(_), ColorSpace::Linear) => Format::Rgba8,
+        (Texels::Rgba8(_), ColorSpace::Srgb) => Format::Rgba8Srgb,
+        (Texels::RgbaF32(texels), ColorSpace::Linear) if texels.iter().flatten().all(is_half) => Format::Rgba16F,
+        _ => Format::RgbaF32,
+    }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "called by Iterator::all on references")]
+fn is_half(x: &f32) -> bool {
+    f16::from_f32(*x).to_f32() == *x
+}
+
+/// Reads texels as the kernels shall see them.
+pub(super) struct Reader<'a> {
+    pub(super) image: &'a Image,
+    pub(super) decode: bool,
+}
+
+impl Reader<'_> {
+    fn block(&self, format: Format, x: u32, y: u32) -> [u32; 4] {
+        match format {
+            Format::Rgba8 | Format::Rgba8Srgb => {
+                [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[i, j]| u32::from_le_bytes(self.bytes(2 * x + i, 2 * y + j)))
+            }
+            Format::Rgba16F => {
+                let pair = |a: f32, b: f32| {
+                    u32::from(f16::from_f32(a).to_bits()) | u32::from(f16::from_f32(b).to_bits()) << 16
+                };
+                let ([r, g, b, a], [s, h, c, d]) = (self.linear(2 * x, y), self.linear(2 * x + 1, y));
+                [pair(r, g), pair(b, a), pair(s, h), pair(c, d)]
+            }
+            Format::RgbaF32 => self.linear(x, y).map(f32::to_bits),
+        }
+    }
+
+    /// Index of a texel; those past the edge of a block are the edge again.
+    fn index(&self, x: u32, y: u32) -> usize {
+        let (x, y) = (x.min(self.image.width - 1), y.min(self.image.height - 1));
+        y as usize * self.image.width as usize + x as usize
+    }
+
+    fn bytes(&self, x: u32, y: u32) -> [u8; 4] {
+        match &self.image.texels {
+            Texels::Rgba8(texels) => texels[self.index(x, y)],
+            _ => [0; 4],
+        }
+    }
+
+    /// A texel as linear light; alpha is linear always.
+    pub(super) fn linear(&self, x: u32, y: u32) -> [f32; 4] {
+        let i = self.index(x, y);
+        let [r, g, b, a] = match &self.image.texels {
+            Texels::Rgba8(texels) => texels[i].map(|c| f32::from(c) / 255.0),
+            Texels::Rgba16(texels) => texels[i].map(|c| f32::from(c) / 65535.0),
+            Texels::RgbaF32(texels) => texels[i],
+        };
+        if self.decode { [srgb_decode(r), srgb_decode(g), srgb_decode(b), a] } else { [r, g, b, a] }
+    }
+}
+
+/// IEC 61966-2-1.
+fn srgb_decode(c: f32) -> f32 {
+    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}

@@ -1,0 +1,76 @@
+//! The importance table of an environment image.
+
+use super::atlas::Reader;
+use super::textures::References;
+use super::{Prepared, alias};
+use crate::layout::EnvironmentCell;
+use crate::scene::{ColorSpace, Environment, Image, ImageTexture, Scene, Texture};
+use std::f64::consts::PI;
+
+/// Most columns of the table. A wider image is averaged: the table only says where to look more often.
+const MOST_COLUMNS: u32 = 1024;
+/// Share of the samples that goes to all directions alike, so that no light is missed where the table is coarse.
+const EVEN_SHARE: f64 = 0.02;
+
+/// Fills the table, when the environment is an image.
+pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) {
+    let Some(environment) = &scene.environment else { return };
+    let Some(handle) = environment.texture() else { return };
+    let Texture::Image(texture) = &scene.textures[handle];
+    out.features.environment_image = true;
+    out.environment_texture = textures.reference(handle);
+    let weights = weights(texture, &scene.images[texture.image], out);
+    out.environment = alias::table(&weights)
+        .into_iter()
+        .map(|slot| EnvironmentCell { accept: slot.accept, alias: slot.alias, chance: slot.chance, spare: 0 })
+        .collect();
+}
+
+/// Brightness times solid angle of each cell, row by row, v growing with the row.
+fn weights(texture: &ImageTexture, image: &Image, out: &mut Prepared) -> Vec<f64> {
+    let plain = texture.uv == crate::scene::UvTransform::default();
+    let size = [image.width.min(MOST_COLUMNS), image.height.min(MOST_COLUMNS / 2).max(1)];
+    out.environment_size = size;
+    let read = Reader { image, decode: texture.color_space == ColorSpace::Srgb };
+    let latitude = |row: u32| ((f64::from(row) + 0.5) / f64::from(size[1]) - 0.5) * PI;
+    let mut weights = Vec::with_capacity(size[0] as usize * size[1] as usize);
+    for row in 0..size[1] {
+        for column in 0..size[0] {
+            // A moved or scaled image is looked at evenly: right, if noisier.
+            let brightness = if plain { cell(&read, image, column, size[1] - 1 - row, size) } else { 1.0 };
+            weights.push(brightness * latitude(row).cos());
+        }
+    }
+    let sum: f64 = weights.iter().sum();
+    let whole: f64 = (0..size[1]).map(|row| latitude(row).cos()).sum::<f64>() * f64::from(size[0]);
+    for (i, weight) in weights.iter_mut().enumerate() {
+        let even = latitude(i as u32 / size[0]).cos() / whole;
+        *weight = (1.0 - EVEN_SHARE) * if sum > 0.0 { *weight / sum } else { 0.0 } + EVEN_SHARE * even;
+    }
+    weights
+}
+
+/// Mean brightness of the texels of a cell and their neighbours, which a bilinear look-up in the cell may meet.
+fn cell(read: &Reader<'_>, image: &Image, column: u32, row_from_top: u32, size: [u32; 2]) -> f64 {
+    let span = |i: u32, cells: u32, texels: u32| {
+        let (from, to) = (u64::from(i) * u64::from(texels), u64::from(i + 1) * u64::from(texels));
+        let (from, to) = ((from / u64::from(cells)) as u32, to.div_ceil(u64::from(cells)) as u32);
+        (from.saturating_sub(1), (to + 1).min(texels))
+    };
+    let ((x0, x1), (y0, y1)) = (span(column, size[0], image.width), span(row_from_top, size[1], image.height));
+    let mut sum = 0.0;
+    for y in y0..y1 {
+        for x in x0..x1 {
+            let [r, g, b, _] = read.linear(x, y);
+            sum += f64::from(r + g + b).max(0.0);
+        }
+    }
+    sum / (f64::from(x1 - x0) * f64::from(y1 - y0))
+}
+
+/// The rotation of an environment as rows of the map from world directions to those of the image.
+pub(crate) fn rows(environment: &Environment) -> [[f32; 3]; 3] {
+    // The inverse of a rotation is its transpose: its rows are the columns of the rotation.
+    let m = environment.world_from_environment;
+    [m.x_axis.to_array(), m.y_axis.to_array(), m.z_axis.to_array()]
+}

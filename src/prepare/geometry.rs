@@ -1,0 +1,380 @@
+//! Shapes and meshes to instances, triangles and trees.
+//!
+//! What is placed once goes into one tree in world space (the soup); a mesh that is placed several times gets a tree of
+//! its own. A tree over instances stands above them, unless the soup is all there is.
+
+use super::bvh::{self, Quality};
+use super::{Bounds, Prepared};
+use crate::layout::{
+    Face, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
+    LEAF_INSTANCE, NONE, Triangle, Vertex,
+};
+use crate::scene::{Mesh, Scene, Shape, ShapeKind};
+use crate::{Error, Result};
+use glam::{Affine3A, Mat3A, Vec2, Vec3};
+
+/// Most triangles a leaf holds.
+const TRIANGLES_A_LEAF: u32 = 4;
+
+/// Where a thing that may shine went: for the table of lights.
+pub(super) struct Placed {
+    /// Index in `Prepared::instances`.
+    pub instance: u32,
+    /// What it is.
+    pub source: Source,
+    /// Its map to world space.
+    pub world_from_object: Affine3A,
+}
+
+/// Where an instance comes from in the scene.
+pub(super) enum Source {
+    /// `scene.shapes[_]`.
+    Shape(usize),
+    /// `scene.instances[_]`.
+    Mesh(usize),
+}
+
+/// Fills nodes, triangles, faces, vertices, instances, root, bounds.
+pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> {
+    let mut placed = Vec::new();
+    let mut uses = vec![0_u32; scene.meshes.len()];
+    for instance in &scene.instances {
+        uses[instance.mesh.index()] += 1;
+    }
+    let mut soup = Vec::new();
+    for (i, shape) in scene.shapes.iter().enumerate() {
+        let world_from_object = shape_frame(shape);
+        let kind = match shape.kind {
+            ShapeKind::Sphere { .. } => INSTANCE_SPHERE,
+            ShapeKind::Disk { .. } => INSTANCE_DISK,
+            ShapeKind::Quad { .. } => INSTANCE_SOUP,
+        };
+        let instance = out.push_instance(kind, world_from_object, shape.material.index() as u32);
+        if let ShapeKind::Quad { .. } = shape.kind {
+            push_triangles(&quad_mesh(), false, &world_from_object, Some(instance), out, &mut soup);
+        }
+        placed.push(Placed { instance, source: Source::Shape(i), world_from_object });
+    }
+    let mut trees: Vec<Option<(u32, u32, Bounds)>> = vec![None; scene.meshes.len()];
+    for (i, instance) in scene.instances.iter().enumerate() {
+        let (mesh, map) = (&scene.meshes[instance.mesh], instance.world_from_object);
+        let once = uses[instance.mesh.index()] == 1;
+        let shines = mesh_shines(scene, instance.mesh);
+        let kind = if once { INSTANCE_SOUP } else { INSTANCE_MESH };
+        let index = out.push_instance(kind, map, instance.material.index() as u32);
+        out.instances[index as usize].light_stride = 1;
+        if once {
+            push_triangles(mesh, shines, &map, Some(index), out, &mut soup);
+        } else {
+            let tree = &mut trees[instance.mesh.index()];
+            if tree.is_none() {
+                let mut own = Vec::new();
+                push_triangles(mesh, shines, &Affine3A::IDENTITY, None, out, &mut own);
+                let bounds = bounds_of(&own);
+                let (root, depth) = out.push_tree(own)?;
+                *tree = Some((root, depth, bounds));
+            }
+            out.instances[index as usize].root = tree.map_or(NONE, |(root, ..)| root);
+        }
+        placed.push(Placed { instance: index, source: Source::Mesh(i), world_from_object: map });
+    }
+    build_top(scene, soup, &trees, out)?;
+    Ok(placed)
+}
+
+/// The soup's tree, and the tree over instances when there is more than the soup.
+fn build_top(
+    scene: &Scene,
+    soup: Vec<Triangle>,
+    trees: &[Option<(u32, u32, Bounds)>],
+    out: &mut Prepared,
+) -> Result<()> {
+    let mut tops: Vec<(u32, Bounds)> = Vec::new();
+    let mut deepest = trees.iter().flatten().map(|(_, depth, _)| *depth).max().unwrap_or(0);
+    let soup_bounds = bounds_of(&soup);
+    let soup_root = if soup.is_empty() {
+        None
+    } else {
+        let (root, depth) = out.push_tree(soup)?;
+        deepest = deepest.max(depth);
+        Some(root)
+    };
+    for (i, instance) in out.instances.iter().enumerate() {
+        let map = world_from_object(instance);
+        match instance.kind {
+            INSTANCE_SPHERE => tops.push((i as u32, ellipsoid_bounds(&map))),
+            INSTANCE_DISK => tops.push((i as u32, disk_bounds(&map))),
+            _ => {}
+        }
+    }
+    let meshes = scene.instances.iter().zip(scene.shapes.len()..);
+    for (instance, index) in meshes {
+        if let Some((root, _, bounds)) = trees[instance.mesh.index()]
+            && root != NONE
+        {
+            tops.push((index as u32, transformed(&bounds, &instance.world_from_object)));
+        }
+    }
+    for (_, bounds) in &tops {
+        out.bounds.add(bounds.min);
+        out.bounds.add(bounds.max);
+    }
+    if soup_root.is_some() {
+        out.bounds.add(soup_bounds.min);
+        out.bounds.add(soup_bounds.max);
+    }
+    if !out.bounds.diagonal().is_finite() {
+        return Err(Error::scene("the scene is too large for 32-bit floats").help("scale it down"));
+    }
+    let uses = |kind| out.instances.iter().any(|instance| instance.kind == kind);
+    (out.features.spheres, out.features.disks) = (uses(INSTANCE_SPHERE), uses(INSTANCE_DISK));
+    out.features.instances = !tops.is_empty();
+    let Some(root) = soup_root.filter(|_| tops.is_empty()) else {
+        return build_instance_tree(tops, soup_root, soup_bounds, deepest, out);
+    };
+    out.root = root;
+    out.stack_entries = deepest + 1;
+    Ok(())
+}
+
+fn build_instance_tree(
+    mut tops: Vec<(u32, Bounds)>,
+    soup_root: Option<u32>,
+    soup_bounds: Bounds,
+    deepest: u32,
+    out: &mut Prepared,
+) -> Result<()> {
+    if let Some(root) = soup_root {
+        let index = out.push_instance(INSTANCE_SOUP, Affine3A::IDENTITY, 0);
+        out.instances[index as usize].root = root;
+        tops.push((index, soup_bounds));
+    }
+    let mut tree = bvh::build(tops.iter().map(|(_, bounds)| *bounds).collect(), 1, Quality::High);
+    // A leaf holds one instance: name it by its index.
+    let name = |reference: &mut u32| {
+        if *reference & LEAF != 0 && *reference != NONE {
+            let place = (*reference & LEAF_FIRST_MASK) as usize;
+            *reference = LEAF | LEAF_INSTANCE | tops[tree.order[place] as usize].0;
+        }
+    };
+    name(&mut tree.root);
+    for node in &mut tree.nodes {
+        name(&mut node.child0);
+        name(&mut node.child1);
+    }
+    tree.shift_nodes(out.nodes.len() as u32);
+    // Down one tree, the mark of its end, down the other, and the mark of the end of all.
+    out.stack_entries = tree.depth + deepest + 2;
+    out.root = tree.root;
+    out.nodes.append(&mut tree.nodes);
+    check_stack(out.stack_entries)
+}
+
+fn check_stack(entries: u32) -> Result<()> {
+    if entries <= crate::layout::STACK_ENTRIES {
+        return Ok(());
+    }
+    Err(Error::scene(format!(
+        "the trees over meshes and instances need a stack of {entries}, more than {}",
+        crate::layout::STACK_ENTRIES
+    ))
+    .help("merge small meshes into one"))
+}
+
+impl Prepared {
+    fn push_instance(&mut self, kind: u32, world_from_object: Affine3A, material: u32) -> u32 {
+        let rows = |m: &Affine3A| {
+            let (linear, t) = (m.matrix3.transpose(), m.translation);
+            [linear.x_axis.extend(t.x), linear.y_axis.extend(t.y), linear.z_axis.extend(t.z)].map(|r| r.to_array())
+        };
+        let (world, object) = (rows(&world_from_object), rows(&world_from_object.inverse()));
+        self.instances.push(Instance {
+            kind,
+            root: NONE,
+            light: NONE,
+            material,
+            object_row0: object[0],
+            object_row1: object[1],
+            object_row2: object[2],
+            world_row0: world[0],
+            world_row1: world[1],
+            world_row2: world[2],
+            handedness: if world_from_object.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 },
+            light_stride: 0,
+            in_world: u32::from(kind == INSTANCE_SOUP),
+            spare: 0,
+        });
+        self.instances.len() as u32 - 1
+    }
+
+    /// Builds the tree of some triangles and puts them in its order. Gives root and depth.
+    fn push_tree(&mut self, triangles: Vec<Triangle>) -> Result<(u32, u32)> {
+        let (nodes, first) = (self.nodes.len(), self.triangles.len());
+        if nodes + triangles.len() > LEAF_FIRST_MASK as usize || first + triangles.len() > LEAF_FIRST_MASK as usize {
+            return Err(Error::scene(format!("more than {LEAF_FIRST_MASK} triangles")).help("use instances"));
+        }
+        let start = std::time::Instant::now();
+        let mut tree = bvh::build(triangles.iter().map(triangle_bounds).collect(), TRIANGLES_A_LEAF, Quality::Default);
+        self.bvh_seconds.0 += start.elapsed().as_secs_f64();
+        tree.shift(nodes as u32, first as u32);
+        self.nodes.append(&mut tree.nodes);
+        self.triangles.extend(tree.order.iter().map(|&i| triangles[i as usize]));
+        self.bvh_cost = self.bvh_cost.max(tree.cost);
+        Ok((tree.root, tree.depth))
+    }
+}
+
+/// The triangles of a mesh as records, with their faces and vertices. `instance` is set for what is put into world
+/// space; a map that mirrors turns the triangles round, so that they stay counter-clockwise from outside.
+fn push_triangles(
+    mesh: &Mesh,
+    shines: bool,
+    map: &Affine3A,
+    instance: Option<u32>,
+    out: &mut Prepared,
+    triangles: &mut Vec<Triangle>,
+) {
+    let mirrored = map.matrix3.determinant() < 0.0;
+    let normal_map: Mat3A = map.matrix3.inverse().transpose();
+    let has_vertices = !mesh.normals.is_empty() || !mesh.uvs.is_empty();
+    let needs_faces = has_vertices || shines;
+    let first_vertex = out.vertices.len() as u32;
+    if has_vertices {
+        out.vertices.extend((0..mesh.positions.len()).map(|i| {
+            let normal = mesh.normals.get(i).map_or(Vec3::ZERO, |n| (normal_map * *n).normalize_or_zero());
+            let uv = mesh.uvs.get(i).copied().unwrap_or(Vec2::ZERO);
+            Vertex { normal: normal.into(), u: uv.x, v: uv.y, spare: [0.0; 3] }
+        }));
+    }
+    let materials = part_materials(mesh);
+    triangles.reserve(mesh.triangles.len());
+    for (i, corners) in mesh.triangles.iter().enumerate() {
+        let [a, b, c] = if mirrored { [corners[0], corners[2], corners[1]] } else { *corners };
+        let position = |v: u32| map.transform_point3(mesh.positions[v as usize]).to_array();
+        let face = if needs_faces {
+            let vertices = if has_vertices { [a, b, c].map(|v| first_vertex + v) } else { [NONE; 3] };
+            out.faces.push(Face { vertices, primitive: i as u32 });
+            out.faces.len() as u32 - 1
+        } else {
+            NONE
+        };
+        triangles.push(Triangle {
+            a: position(a),
+            instance: instance.unwrap_or(NONE),
+            b: position(b),
+            face,
+            c: position(c),
+            material: materials.get(i).copied().unwrap_or(NONE),
+        });
+    }
+}
+
+/// Whether a mesh is a light in any of its instances.
+fn mesh_shines(scene: &Scene, mesh: crate::scene::Handle<Mesh>) -> bool {
+    let shines = |material| scene.materials[material].emission.is_some();
+    let parts = scene.meshes[mesh].parts.iter().filter_map(|part| part.material);
+    let instances = scene.instances.iter().filter(|instance| instance.mesh == mesh).map(|instance| instance.material);
+    parts.chain(instances).any(shines)
+}
+
+/// Material of each triangle; empty when no part has one of its own.
+fn part_materials(mesh: &Mesh) -> Vec<u32> {
+    if mesh.parts.iter().all(|part| part.material.is_none()) {
+        return Vec::new();
+    }
+    let mut materials = vec![NONE; mesh.triangles.len()];
+    for part in &mesh.parts {
+        if let (Some(material), Some(slots)) =
+            (part.material, materials.get_mut(part.triangles.start as usize..part.triangles.end as usize))
+        {
+            slots.fill(material.index() as u32);
+        }
+    }
+    materials
+}
+
+/// The unit square as two triangles: uv = position.
+fn quad_mesh() -> Mesh {
+    let corners = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+    Mesh {
+        positions: corners.iter().map(|c| c.extend(0.0)).collect(),
+        uvs: corners.to_vec(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
+    }
+}
+
+/// From the unit sphere, disk or square of the kernels to the world.
+pub(super) fn shape_frame(shape: &Shape) -> Affine3A {
+    let around = |z: Vec3, along: Vec3, scale: f32, at: Vec3| {
+        let z = z.normalize();
+        let x = along.reject_from_normalized(z).normalize();
+        let m = Mat3A::from_cols((x * scale).into(), (z.cross(x) * scale).into(), (z * scale).into());
+        Affine3A { matrix3: m, translation: at.into() }
+    };
+    let object = match shape.kind {
+        ShapeKind::Sphere { center, radius, pole, meridian } => around(pole, meridian, radius, center),
+        ShapeKind::Disk { center, normal, radius, meridian } => around(normal, meridian, radius, center),
+        ShapeKind::Quad { origin, edge_u, edge_v } => Affine3A {
+            matrix3: Mat3A::from_cols(edge_u.into(), edge_v.into(), edge_u.cross(edge_v).normalize().into()),
+            translation: origin.into(),
+        },
+    };
+    shape.world_from_object * object
+}
+
+fn world_from_object(instance: &Instance) -> Affine3A {
+    let rows = [instance.world_row0, instance.world_row1, instance.world_row2].map(glam::Vec4::from);
+    let linear = Mat3A::from_cols(rows[0].truncate().into(), rows[1].truncate().into(), rows[2].truncate().into());
+    Affine3A {
+        matrix3: linear.transpose(),
+        translation: Vec3::new(rows[0].w, rows[1].w, rows[2].w).into(),
+    }
+}
+
+fn triangle_bounds(t: &Triangle) -> Bounds {
+    let mut bounds = Bounds::default();
+    for p in [t.a, t.b, t.c] {
+        bounds.add(p.into());
+    }
+    bounds
+}
+
+fn bounds_of(triangles: &[Triangle]) -> Bounds {
+    triangles.iter().map(triangle_bounds).fold(Bounds::default(), |mut all, b| {
+        all.add(b.min);
+        all.add(b.max);
+        all
+    })
+}
+
+fn transformed(bounds: &Bounds, map: &Affine3A) -> Bounds {
+    let mut out = Bounds::default();
+    for i in 0..8 {
+        let pick = |bit: u32, axis: usize| if i & bit == 0 { bounds.min[axis] } else { bounds.max[axis] };
+        out.add(map.transform_point3(Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2))));
+    }
+    widened(out)
+}
+
+/// Half-extent of a mapped unit sphere along an axis is the length of that row of the matrix.
+fn ellipsoid_bounds(map: &Affine3A) -> Bounds {
+    let rows = map.matrix3.transpose();
+    let half = Vec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length());
+    let center = Vec3::from(map.translation);
+    widened(Bounds { min: center - half, max: center + half })
+}
+
+fn disk_bounds(map: &Affine3A) -> Bounds {
+    let rows = map.matrix3.transpose();
+    let length = |row: glam::Vec3A| row.truncate().length();
+    let half = Vec3::new(length(rows.x_axis), length(rows.y_axis), length(rows.z_axis));
+    let center = Vec3::from(map.translation);
+    widened(Bounds { min: center - half, max: center + half })
+}
+
+/// A little more, for the rounding of the map.
+fn widened(bounds: Bounds) -> Bounds {
+    let margin = (bounds.min.abs().max(bounds.max.abs())) * 4.0 * f32::EPSILON;
+    Bounds { min: bounds.min - margin, max: bounds.max + margin }
+}

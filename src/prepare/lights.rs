@@ -1,0 +1,180 @@
+//! The table of lights, chosen by power.
+
+use super::geometry::{Placed, Source};
+use super::textures::References;
+use super::{Prepared, alias};
+use crate::layout::{
+    LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE, Light, NONE,
+};
+use crate::scene::{self, Emission, Mesh, Scene, ShapeKind, Value};
+use glam::{Affine3A, Vec2, Vec3};
+use std::f32::consts::PI;
+
+/// A light before the table is built: its record and its power in watts; none for light from infinity.
+struct Entry {
+    light: Light,
+    power: Option<f32>,
+}
+
+/// Fills `lights`, the light of each instance, and the chance of the environment.
+///
+/// Light from infinity has no power that compares with that of lamps: each distant light and the environment get the same
+/// chance as all lamps together (pbrt-v4, section 12.6.3, treats infinite lights alike).
+pub(super) fn prepare(scene: &Scene, textures: &References, placed: Vec<Placed>, out: &mut Prepared) {
+    let mut entries = Vec::new();
+    for place in placed {
+        let first = entries.len();
+        match place.source {
+            Source::Shape(i) => push_shape(scene, i, &place.world_from_object, textures, &mut entries),
+            Source::Mesh(i) => push_mesh(scene, i, &place.world_from_object, textures, &mut entries),
+        }
+        if entries.len() > first {
+            out.instances[place.instance as usize].light = first as u32;
+        }
+    }
+    entries.extend(scene.lights.iter().map(punctual));
+    let environment = scene.environment.is_some();
+    let lamps = entries.iter().filter_map(|entry| entry.power).map(f64::from).sum::<f64>();
+    let distant = entries.iter().filter(|entry| entry.power.is_none()).count();
+    let share = 1.0 / (distant + usize::from(environment) + usize::from(lamps > 0.0)).max(1) as f64;
+    let weight = |entry: &Entry| entry.power.map_or(share, |power| share * f64::from(power) / lamps.max(f64::MIN_POSITIVE));
+    let weights: Vec<f64> = entries.iter().map(weight).collect();
+    let useful = weights.iter().any(|weight| *weight > 0.0);
+    out.features.environment = environment;
+    out.environment_chance = match (environment, useful) {
+        (false, _) => 0.0,
+        (true, false) => 1.0,
+        (true, true) => share as f32,
+    };
+    if !useful {
+        for instance in &mut out.instances {
+            instance.light = NONE;
+        }
+        return;
+    }
+    for (entry, slot) in entries.into_iter().zip(alias::table(&weights)) {
+        out.features.light_kinds |= 1 << entry.light.kind;
+        let chance = slot.chance * (1.0 - out.environment_chance);
+        out.lights.push(Light { chance, accept: slot.accept, alias: slot.alias, ..entry.light });
+    }
+}
+
+fn surface_light(emission: &Emission, textures: &References, kind: u32) -> (Light, f32) {
+    let (radiance, texture, brightness) = match emission.radiance {
+        Value::Constant(c) => (c, NONE, c.element_sum() / 3.0),
+        Value::Texture(handle) => (Vec3::ONE, textures.reference(handle), textures.mean(handle)),
+    };
+    let sides = if emission.two_sided { 2.0 } else { 1.0 };
+    let light = Light {
+        kind,
+        radiance: radiance.to_array(),
+        texture,
+        two_sided: u32::from(emission.two_sided),
+        ..Light::default()
+    };
+    (light, sides * PI * brightness)
+}
+
+fn push_shape(scene: &Scene, index: usize, map: &Affine3A, textures: &References, entries: &mut Vec<Entry>) {
+    let shape = &scene.shapes[index];
+    let Some(emission) = &scene.materials[shape.material].emission else { return };
+    let kind = match shape.kind {
+        ShapeKind::Sphere { .. } => LIGHT_SPHERE,
+        ShapeKind::Disk { .. } => LIGHT_DISK,
+        ShapeKind::Quad { .. } => LIGHT_QUAD,
+    };
+    let (mut light, exitance) = surface_light(emission, textures, kind);
+    light.position = Vec3::from(map.translation).to_array();
+    let (x, y) = (Vec3::from(map.matrix3.x_axis), Vec3::from(map.matrix3.y_axis));
+    // Front of a mirrored shape: its normal is that of the object, not of the cross product in the world.
+    let (x, y) = if map.matrix3.determinant() < 0.0 { (y, x) } else { (x, y) };
+    (light.edge_u, light.edge_v) = (x.to_array(), y.to_array());
+    light.a = x.length();
+    light.b = match shape.kind {
+        ShapeKind::Sphere { .. } => 4.0 * PI * x.length_squared(),
+        ShapeKind::Disk { .. } => PI * x.cross(y).length(),
+        ShapeKind::Quad { .. } => x.cross(y).length(),
+    };
+    let power = Some(exitance * light.b);
+    entries.push(Entry { light, power });
+}
+
+/// One light a triangle, in the order of the mesh; those that do not shine keep their place with no power.
+fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References, entries: &mut Vec<Entry>) {
+    let instance = &scene.instances[index];
+    let mesh = &scene.meshes[instance.mesh];
+    let of_part = |triangle: usize| {
+        let part = mesh.parts.iter().find(|part| part.triangles.contains(&(triangle as u32)));
+        part.and_then(|part| part.material).unwrap_or(instance.material)
+    };
+    let uniform = mesh.parts.iter().all(|part| part.material.is_none());
+    let shines = |material| scene.materials[material].emission.is_some();
+    if !shines(instance.material) && !mesh.parts.iter().filter_map(|part| part.material).any(shines) {
+        return;
+    }
+    for i in 0..mesh.triangles.len() {
+        let material = if uniform { instance.material } else { of_part(i) };
+        entries.push(match &scene.materials[material].emission {
+            Some(emission) => triangle(mesh, i, map, emission, textures),
+            None => Entry { light: Light { kind: LIGHT_TRIANGLE, texture: NONE, ..Light::default() }, power: Some(0.0) },
+        });
+    }
+}
+
+fn triangle(mesh: &Mesh, index: usize, map: &Affine3A, emission: &Emission, textures: &References) -> Entry {
+    let (mut light, exitance) = surface_light(emission, textures, LIGHT_TRIANGLE);
+    let mut corners = mesh.triangles[index];
+    if map.matrix3.determinant() < 0.0 {
+        corners.swap(1, 2);
+    }
+    let [a, b, c] = corners.map(|v| map.transform_point3(mesh.positions[v as usize]));
+    let default = [Vec2::ZERO, Vec2::X, Vec2::ONE];
+    let uv = |k: usize| mesh.uvs.get(corners[k] as usize).copied().unwrap_or(default[k]);
+    light.position = a.to_array();
+    (light.edge_u, light.edge_v) = ((b - a).to_array(), (c - a).to_array());
+    light.b = 0.5 * (b - a).cross(c - a).length();
+    light.uv0 = uv(0).to_array();
+    (light.uv1, light.uv2) = ((uv(1) - uv(0)).to_array(), (uv(2) - uv(0)).to_array());
+    Entry { power: Some(exitance * light.b), light }
+}
+
+fn punctual(light: &scene::Light) -> Entry {
+    let base = Light { texture: NONE, ..Light::default() };
+    let mean = |c: &Vec3| c.element_sum() / 3.0;
+    match light {
+        scene::Light::Point { position, intensity } => Entry {
+            light: Light {
+                kind: LIGHT_POINT,
+                position: position.to_array(),
+                radiance: intensity.to_array(),
+                ..base
+            },
+            power: Some(4.0 * PI * mean(intensity)),
+        },
+        scene::Light::Spot { position, direction, intensity, cone_angle, falloff_angle } => {
+            let inner = (cone_angle - falloff_angle).to_radians().cos();
+            let outer = cone_angle.to_radians().cos();
+            Entry {
+                light: Light {
+                    kind: LIGHT_SPOT,
+                    position: position.to_array(),
+                    edge_u: direction.to_array(),
+                    radiance: intensity.to_array(),
+                    a: inner,
+                    b: outer,
+                    ..base
+                },
+                power: Some(2.0 * PI * (1.0 - 0.5 * (inner + outer)) * mean(intensity)),
+            }
+        }
+        scene::Light::Distant { direction, irradiance } => Entry {
+            light: Light {
+                kind: LIGHT_DISTANT,
+                edge_u: direction.to_array(),
+                radiance: irradiance.to_array(),
+                ..base
+            },
+            power: None,
+        },
+    }
+}

@@ -1,0 +1,120 @@
+//! Texture trees to GLSL and records.
+//!
+//! A texture is named in the kernels by a reference: the shape of its tree in the upper 8 bits, the word of its record in
+//! the lower 24. Textures of one shape share one case of the generated function; what differs between them is read from
+//! their records, so that changing a number compiles nothing.
+
+use super::Prepared;
+use super::atlas::{Atlas, Format, Reader};
+use crate::layout::{CHANNEL_SHIFT, FLAG_INVERT, FLAG_NEAREST, ImageTexture, Record};
+use crate::layout::{WRAP_BLACK, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT};
+use crate::scene::{self, Channel, Handle, Scene, TexelFilter, Texture, Wrap};
+use crate::{Error, Result};
+use std::fmt::Write as _;
+
+/// References of the textures of a scene, and their mean brightness.
+pub(super) struct References {
+    references: Vec<u32>,
+    means: Vec<f32>,
+}
+
+impl References {
+    /// The reference of a texture.
+    pub(super) fn reference(&self, handle: Handle<Texture>) -> u32 {
+        self.references[handle.index()]
+    }
+
+    /// Mean of its values over the picture.
+    pub(super) fn mean(&self, handle: Handle<Texture>) -> f32 {
+        self.means[handle.index()]
+    }
+}
+
+/// Fills `textures`, `texels` and `texture_glsl`.
+pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
+    let mut atlas = Atlas::default();
+    let mut places = Vec::new();
+    for (_, _, Texture::Image(texture)) in scene.textures.iter() {
+        places.push((texture, atlas.place(scene, texture)?));
+    }
+    if places.len() * ImageTexture::WORDS as usize >= 1 << 24 {
+        return Err(Error::scene(format!("{} textures are too many: their records take 2^24 words", places.len())));
+    }
+    let mut shapes: Vec<Format> = Vec::new();
+    let mut references = References { references: Vec::new(), means: Vec::new() };
+    for (texture, place) in places {
+        let shape = shapes.iter().position(|format| *format == place.format).unwrap_or_else(|| {
+            shapes.push(place.format);
+            shapes.len() - 1
+        });
+        let image = &scene.images[texture.image];
+        let word = out.textures.len() as u32;
+        let record = record(texture, image, atlas.address(place));
+        out.textures.extend_from_slice(bytemuck::cast_slice(std::slice::from_ref(&record)));
+        references.references.push((shape as u32) << 24 | word);
+        references.means.push(mean(texture, image));
+    }
+    out.texels = atlas.into_words();
+    out.texture_glsl = glsl(&shapes);
+    Ok(references)
+}
+
+/// Mean brightness over the picture, for the power of a light.
+fn mean(texture: &scene::ImageTexture, image: &scene::Image) -> f32 {
+    let read = Reader { image, decode: texture.color_space == scene::ColorSpace::Srgb };
+    let value = |x, y| {
+        let [r, g, b, a] = read.linear(x, y);
+        let value = match texture.channel {
+            Channel::Rgb => (r + g + b) / 3.0,
+            Channel::R => r,
+            Channel::G => g,
+            Channel::B => b,
+            Channel::A => a,
+        };
+        f64::from(if texture.invert { 1.0 - value } else { value } * texture.scale)
+    };
+    let sum: f64 = (0..image.height).map(|y| (0..image.width).map(|x| value(x, y)).sum::<f64>()).sum();
+    (sum / (f64::from(image.width) * f64::from(image.height)).max(1.0)) as f32
+}
+
+fn glsl(shapes: &[Format]) -> String {
+    let mut text = String::from(
+        "// Generated from the textures of the scene.\n#include \"texture/image.glsl\"\n\n\
+         vec4 texture_evaluate(uint reference, TextureContext context)\n{\n    uint at = reference & 0xffffffu;\n    \
+         switch (reference >> 24) {\n",
+    );
+    for (i, format) in shapes.iter().enumerate() {
+        _ = writeln!(text, "    case {i}u: return image_texture(at, {}, context);", format.glsl_name());
+    }
+    text.push_str("    default: return vec4(0.0);\n    }\n}\n");
+    text
+}
+
+fn record(texture: &scene::ImageTexture, image: &scene::Image, (base, pitch): (u32, u32)) -> ImageTexture {
+    let uv = texture.uv.matrix();
+    let wrap = |wrap| match wrap {
+        Wrap::Repeat => WRAP_REPEAT,
+        Wrap::Clamp => WRAP_CLAMP,
+        Wrap::Mirror => WRAP_MIRROR,
+        Wrap::Black => WRAP_BLACK,
+    };
+    let channel = match texture.channel {
+        Channel::Rgb => 0,
+        Channel::R => 1,
+        Channel::G => 2,
+        Channel::B => 3,
+        Channel::A => 4,
+    };
+    let nearest = if texture.filter == TexelFilter::Nearest { FLAG_NEAREST } else { 0 };
+    let invert = if texture.invert { FLAG_INVERT } else { 0 };
+    ImageTexture {
+        base,
+        pitch,
+        size: [image.width, image.height],
+        uv_column0: uv.matrix2.x_axis.to_array(),
+        uv_column1: uv.matrix2.y_axis.to_array(),
+        uv_offset: uv.translation.to_array(),
+        scale: texture.scale,
+        flags: wrap(texture.wrap[0]) | wrap(texture.wrap[1]) << 2 | nearest | invert | channel << CHANNEL_SHIFT,
+    }
+}

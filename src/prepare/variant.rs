@@ -1,0 +1,134 @@
+//! Which switches a kernel is compiled with, for a scene.
+
+use super::Prepared;
+use crate::layout::{
+    Backend, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, STACK_ENTRIES,
+};
+use crate::scene::{FilterKind, Sampler, Scene};
+use std::collections::BTreeMap;
+
+/// The kernels of a wave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// First rays.
+    Camera,
+    /// Nearest surfaces.
+    Intersect,
+    /// Scattering events.
+    Shade,
+    /// Shadow rays.
+    Shadow,
+    /// Queues.
+    Advance,
+    /// Sums.
+    Film,
+    /// Texture values for the host.
+    Evaluate,
+}
+
+impl Stage {
+    /// All stages.
+    pub const ALL: [Self; 7] = [
+        Self::Camera,
+        Self::Intersect,
+        Self::Shade,
+        Self::Shadow,
+        Self::Advance,
+        Self::Film,
+        Self::Evaluate,
+    ];
+
+    /// File in the shader tree.
+    pub fn file(self) -> &'static str {
+        match self {
+            Self::Camera => "stages/camera.comp",
+            Self::Intersect => "stages/intersect.comp",
+            Self::Shade => "stages/shade.comp",
+            Self::Shadow => "stages/shadow.comp",
+            Self::Advance => "stages/advance.comp",
+            Self::Film => "stages/film.comp",
+            Self::Evaluate => "stages/evaluate.comp",
+        }
+    }
+}
+
+const SAMPLERS: [(&str, Sampler); 5] = [
+    ("SAMPLER_CENTER", Sampler::Center),
+    ("SAMPLER_REGULAR", Sampler::Regular),
+    ("SAMPLER_RANDOM", Sampler::Random),
+    ("SAMPLER_STRATIFIED", Sampler::Stratified),
+    ("SAMPLER_SOBOL", Sampler::Sobol),
+];
+
+const FILTERS: [(&str, FilterKind); 4] = [
+    ("FILTER_BOX", FilterKind::Box),
+    ("FILTER_TENT", FilterKind::Tent),
+    ("FILTER_GAUSSIAN", FilterKind::Gaussian),
+    ("FILTER_BLACKMAN_HARRIS", FilterKind::BlackmanHarris),
+];
+
+/// The switches of a stage: only those that its files ask for, so that a scene edit compiles only what it touches.
+pub fn defines(scene: &Scene, prepared: &Prepared, stage: Stage, backend: Backend) -> BTreeMap<String, String> {
+    let mut all = BTreeMap::new();
+    let mut set = |name: &str, value: String| _ = all.insert(name.to_owned(), value);
+    if backend == Backend::Texel {
+        set("TEXEL_FETCH", "1".to_owned());
+    }
+    // Every stage of the wave includes the random numbers.
+    for (i, (name, sampler)) in SAMPLERS.iter().enumerate() {
+        set(name, i.to_string());
+        if *sampler == scene.render.sampler && matches!(stage, Stage::Camera | Stage::Shade) {
+            set("SAMPLER", i.to_string());
+        }
+    }
+    let features = &prepared.features;
+    if stage == Stage::Camera {
+        for (i, (name, kind)) in FILTERS.iter().enumerate() {
+            set(name, i.to_string());
+            if *kind == scene.film.filter.kind {
+                set("FILTER", i.to_string());
+            }
+        }
+        if features.lens {
+            set("HAS_LENS", "1".to_owned());
+        }
+    }
+    let mut flag = |name: &str, on: bool| {
+        if on {
+            _ = all.insert(name.to_owned(), "1".to_owned());
+        }
+    };
+    if matches!(stage, Stage::Intersect | Stage::Shadow | Stage::Shade) {
+        flag("HAS_INSTANCES", features.instances);
+        flag("HAS_SPHERES", features.spheres);
+        flag("HAS_DISKS", features.disks);
+    }
+    if stage == Stage::Shade {
+        let material = |kind: u32| features.material_kinds & 1 << kind != 0;
+        flag("HAS_DIFFUSE", material(MATERIAL_DIFFUSE));
+        flag("HAS_PHONG", material(MATERIAL_PHONG));
+        flag("HAS_CONDUCTOR", material(MATERIAL_CONDUCTOR));
+        flag("HAS_DIELECTRIC", material(MATERIAL_DIELECTRIC));
+        flag("HAS_MEDIUM", features.medium);
+        flag("TEXTURED_COLOR", features.textured_color);
+        flag("TEXTURED_SPECULAR", features.textured_specular);
+        flag("TEXTURED_EXPONENT", features.textured_exponent);
+        flag("TEXTURED_ALPHA", features.textured_alpha);
+        flag("TEXTURED_EMISSION", features.textured_emission);
+        flag("HAS_LIGHTS", !prepared.lights.is_empty());
+        flag("HAS_ENVIRONMENT", features.environment);
+        flag("ENVIRONMENT_IMAGE", features.environment_image);
+        flag("ROULETTE", scene.render.russian_roulette);
+        flag("GEOMETRIC_VETO", scene.render.geometric_veto);
+        all.insert("LIGHT_KINDS".to_owned(), features.light_kinds.to_string());
+    }
+    if matches!(stage, Stage::Intersect | Stage::Shadow) {
+        all.insert("TRAVERSAL_STACK".to_owned(), stack_size(prepared.stack_entries).to_string());
+    }
+    all
+}
+
+/// Stack of the kernels for a scene: a multiple of 16, so that scenes share variants.
+pub fn stack_size(entries: u32) -> u32 {
+    entries.next_multiple_of(16).clamp(16, STACK_ENTRIES)
+}
