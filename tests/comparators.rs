@@ -3,7 +3,7 @@
 mod common;
 
 use common::compare::{Verdict, compare, relative_mse};
-use common::references::{Estimate, all, folder, rendered};
+use common::references::{Estimate, all, folder, present, rendered};
 use common::student::{critical_value, level_of_each, two_sided_tail};
 use dapple::film::{Film, Frame, write};
 use dapple::scene::{self, Rect};
@@ -138,6 +138,17 @@ fn accepts_noise_and_rejects_errors_on_every_reference() {
         lower.variance.truncate(lower.width * lower.height);
         assert!(matches!(verdict(&lower), Verdict::Refused(_)), "{name}, one row less");
     }
+}
+
+#[test]
+fn missing_references_fail_where_they_are_needed() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(present(folder.path(), true).unwrap().is_some());
+    let missing = folder.path().join("reference");
+    assert!(present(&missing, true).unwrap_err().contains("is missing"));
+    assert!(present(&missing, false).unwrap().is_none());
+    // A folder without pictures is no success either
+    assert!(all(folder.path()).is_err());
 }
 
 /// A grey picture without noise.

@@ -25,11 +25,10 @@ pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::
         ..Default::default()
     };
     own.other.extend(attributes(meta));
-    let mut shared = ImageAttributes::new(IntegerBounds::from_dimensions(Vec2(
+    let shared = ImageAttributes::new(IntegerBounds::from_dimensions(Vec2(
         frame.width as usize,
         frame.height as usize,
     )));
-    shared.pixel_aspect = 1.0;
     let layer = Layer::new(
         (frame.window.width() as usize, frame.window.height() as usize),
         own,

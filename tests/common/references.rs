@@ -24,14 +24,19 @@ pub struct Reference {
 
 /// The folder of the references, `None` with a notice when this machine lacks it.
 ///
-/// An error when it is missing where it must not be: in CI no checks is a failure.
+/// An error when it is missing in CI (`CI=true`).
 pub fn folder() -> Result<Option<PathBuf>, String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/reference");
+    let in_ci = std::env::var_os("CI").is_some_and(|v| v == "true");
+    present(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/reference"), in_ci)
+}
+
+/// The folder if it exists. Otherwise a notice, or an error where it is `needed`, since no checks is no success.
+pub fn present(folder: &Path, needed: bool) -> Result<Option<PathBuf>, String> {
     if folder.is_dir() {
-        return Ok(Some(folder));
+        return Ok(Some(folder.to_path_buf()));
     }
     let text = format!("{} is missing: no comparison with other renderers", folder.display());
-    if std::env::var_os("CI").is_some_and(|v| v == "true") {
+    if needed {
         return Err(text);
     }
     eprintln!("SKIPPED: {text}");
