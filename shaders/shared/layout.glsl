@@ -3,8 +3,12 @@
 const uint NONE = 4294967295u; // no object
 const uint WORKGROUP = 64u; // local_size_x of every kernel
 const uint TILE = 8u; // side of a tile of pixels, one workgroup
-const uint STACK_ENTRIES = 48u; // entries of the traversal stack; prepare proves that they are enough
+const uint STACK_ENTRIES = 96u; // most entries of the traversal stack; a variant has TRAVERSAL_STACK
 const uint FILM_PLANES = 9u; // words of the film a pixel
+const uint LEAF = 2147483648u; // bit of a child reference: a leaf; bits 27..30 hold its primitives less one, bits 0..27 the first
+const uint LEAF_INSTANCE = 1073741824u; // bit of a leaf reference: bits 0..27 are an instance
+const uint LEAF_COUNT_SHIFT = 27u; // 
+const uint LEAF_FIRST_MASK = 134217727u; // 
 const uint INSTANCE_MESH = 0u; // triangles in object space
 const uint INSTANCE_SOUP = 1u; // triangles in world space
 const uint INSTANCE_SPHERE = 2u; // unit sphere about the origin, pole +z, longitude 0 at +x
@@ -81,26 +85,26 @@ struct Frame {
 
 struct Node {
     vec3 min0; // least corner of the first child
-    uint first0; // index of the first child: a node, or the first primitive of a leaf
+    uint child0; // the first child: a node, or LEAF with count and first primitive, or LEAF and LEAF_INSTANCE with an instance
     vec3 max0; // greatest corner of the first child
-    uint count0; // primitives of the first child when it is a leaf; 0 = it is a node
+    uint spare0; // room
     vec3 min1; // least corner of the second child
-    uint first1; // index of the second child
+    uint child1; // the second child
     vec3 max1; // greatest corner of the second child
-    uint count1; // primitives of the second child; 0 = it is a node
+    uint spare1; // room
 };
 const uint NODE_WORDS = 4u;
 Node node_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
 {
     Node r;
     r.min0 = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
-    r.first0 = w0.w;
+    r.child0 = w0.w;
     r.max0 = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
-    r.count0 = w1.w;
+    r.spare0 = w1.w;
     r.min1 = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
-    r.first1 = w2.w;
+    r.child1 = w2.w;
     r.max1 = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
-    r.count1 = w3.w;
+    r.spare1 = w3.w;
     return r;
 }
 

@@ -7,7 +7,7 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 use std::sync::atomic::Ordering;
-use std::sync::{Arc, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Where a buffer lives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,13 +24,13 @@ pub enum Place {
 pub struct Buffer {
     pub(super) raw: vk::Buffer,
     bytes: u64,
-    allocation: Option<Allocation>,
+    allocation: Mutex<Option<Allocation>>,
     inner: Arc<Inner>,
 }
 
 impl Gpu {
     /// Makes a buffer of at least `bytes`, a whole number of words. `name` is used in messages.
-    pub fn buffer(&self, name: &str, bytes: u64, place: Place) -> Result<Buffer> {
+    pub fn buffer(&self, name: &str, bytes: u64, place: Place) -> Result<Arc<Buffer>> {
         let bytes = bytes.max(16).next_multiple_of(16);
         let info = vk::BufferCreateInfo::default().size(bytes).usage(
             vk::BufferUsageFlags::STORAGE_BUFFER
@@ -43,7 +43,7 @@ impl Gpu {
         let device = &self.inner.device;
         // SAFETY: the device is alive and `info` lives until the call returns.
         let raw = check(unsafe { device.create_buffer(&info, None) }, &format!("make buffer `{name}`"))?;
-        let mut buffer = Buffer { raw, bytes, allocation: None, inner: self.inner.clone() };
+        let buffer = Buffer { raw, bytes, allocation: Mutex::new(None), inner: self.inner.clone() };
         // SAFETY: the buffer was just made on this device.
         let requirements = unsafe { device.get_buffer_memory_requirements(raw) };
         let location = match place {
@@ -69,19 +69,19 @@ impl Gpu {
             })?;
         // SAFETY: the allocation fits the requirements of this buffer, and nothing is bound to it yet.
         let bound = unsafe { device.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) };
-        buffer.allocation = Some(allocation);
+        *buffer.allocation() = Some(allocation);
         self.inner.allocated.fetch_add(bytes, Ordering::Relaxed);
         check(bound, &format!("bind memory to buffer `{name}`"))?;
-        Ok(buffer)
+        Ok(Arc::new(buffer))
     }
 
     /// Makes a buffer on the device that holds `words`; at least one word long.
-    pub fn upload(&self, name: &str, words: &[u8]) -> Result<Buffer> {
-        let mut buffer = self.buffer(name, words.len() as u64, Place::Device)?;
+    pub fn upload(&self, name: &str, words: &[u8]) -> Result<Arc<Buffer>> {
+        let buffer = self.buffer(name, words.len() as u64, Place::Device)?;
         if buffer.write(words) {
             return Ok(buffer);
         }
-        let mut staging = self.buffer(&format!("{name} (staging)"), words.len() as u64, Place::Upload)?;
+        let staging = self.buffer(&format!("{name} (staging)"), words.len() as u64, Place::Upload)?;
         if !staging.write(words) {
             return Err(Error::device(format!("the driver does not map memory for buffer `{name}`")));
         }
@@ -96,26 +96,34 @@ impl Buffer {
         self.bytes
     }
 
+    fn allocation(&self) -> MutexGuard<'_, Option<Allocation>> {
+        self.allocation.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Writes to the start of the buffer; false when the host does not see it. The device must not be using it.
-    pub fn write(&mut self, bytes: &[u8]) -> bool {
-        let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
+    pub fn write(&self, bytes: &[u8]) -> bool {
+        let mut allocation = self.allocation();
+        let mapped = allocation.as_mut().and_then(Allocation::mapped_slice_mut);
         let Some(target) = mapped.and_then(|memory| memory.get_mut(..bytes.len())) else { return false };
         target.copy_from_slice(bytes);
         true
     }
 
-    /// The buffer as the host sees it; none when it does not. The device must not be writing it.
-    pub fn read(&self) -> Option<&[u32]> {
-        let mapped = self.allocation.as_ref().and_then(Allocation::mapped_slice)?;
-        bytemuck::try_cast_slice(mapped.get(..usize::try_from(self.bytes).ok()?)?).ok()
+    /// Looks at the first `bytes` bytes; an error when the host does not see them. The device must not be writing.
+    pub fn read<T>(&self, bytes: u64, look: impl FnOnce(&[u32]) -> T) -> Result<T> {
+        let allocation = self.allocation();
+        let mapped = allocation.as_ref().and_then(Allocation::mapped_slice);
+        let part = mapped.and_then(|memory| memory.get(..usize::try_from(bytes).ok()?));
+        let words = part.and_then(|part| bytemuck::try_cast_slice(part).ok());
+        words.map(look).ok_or_else(|| Error::device("the driver does not map memory that the host reads"))
     }
 }
 
 impl Drop for Buffer {
     fn drop(&mut self) {
-        // SAFETY: whoever submits work keeps the buffers of it until the work is done (see `Ticket`).
+        // SAFETY: tickets and bindings keep the buffers that they use until the work is done.
         unsafe { self.inner.device.destroy_buffer(self.raw, None) };
-        if let Some(allocation) = self.allocation.take() {
+        if let Some(allocation) = self.allocation().take() {
             self.inner.allocated.fetch_sub(self.bytes, Ordering::Relaxed);
             let mut allocator = self.inner.allocator.lock().unwrap_or_else(PoisonError::into_inner);
             // Freeing fails only for memory of another allocator.

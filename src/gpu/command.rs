@@ -4,6 +4,7 @@ use super::device::{Gpu, Inner};
 use super::{Bindings, Buffer, Pipeline, check};
 use crate::{Error, Result};
 use ash::vk;
+use std::any::Any;
 use std::sync::{Arc, PoisonError};
 
 /// One step of work. Steps run in order; a [`Command::Barrier`] makes what was written before it visible after it.
@@ -11,7 +12,7 @@ pub enum Command<'a> {
     /// Sets `bytes` bytes from the start to copies of `value`.
     Fill {
         /// What is filled.
-        buffer: &'a Buffer,
+        buffer: &'a Arc<Buffer>,
         /// How much, a multiple of 4.
         bytes: u64,
         /// With what.
@@ -20,29 +21,29 @@ pub enum Command<'a> {
     /// Copies from the start of one buffer to the start of another.
     Copy {
         /// Source.
-        from: &'a Buffer,
+        from: &'a Arc<Buffer>,
         /// Target.
-        to: &'a Buffer,
+        to: &'a Arc<Buffer>,
         /// How much.
         bytes: u64,
     },
     /// Runs a kernel over a number of workgroups.
     Dispatch {
         /// The kernel.
-        pipeline: &'a Pipeline,
+        pipeline: &'a Arc<Pipeline>,
         /// What it sees.
-        bindings: &'a Bindings,
+        bindings: &'a Arc<Bindings>,
         /// Workgroups.
         groups: u32,
     },
     /// Runs a kernel over as many workgroups as three `u32` in a buffer say.
     DispatchIndirect {
         /// The kernel.
-        pipeline: &'a Pipeline,
+        pipeline: &'a Arc<Pipeline>,
         /// What it sees.
-        bindings: &'a Bindings,
+        bindings: &'a Arc<Bindings>,
         /// Where the numbers are.
-        sizes: &'a Buffer,
+        sizes: &'a Arc<Buffer>,
         /// Their offset in bytes.
         offset: u64,
     },
@@ -50,20 +51,33 @@ pub enum Command<'a> {
     Barrier,
 }
 
-/// Work that was submitted. Dropping it waits for the work, so that buffers, pipelines and bindings that outlive
-/// the ticket outlive the work.
-pub struct Ticket<'a> {
+impl Command<'_> {
+    fn uses(&self) -> Vec<Arc<dyn Any + Send + Sync>> {
+        match self {
+            Command::Fill { buffer, .. } => vec![(*buffer).clone()],
+            Command::Copy { from, to, .. } => vec![(*from).clone(), (*to).clone()],
+            Command::Dispatch { pipeline, bindings, .. } => vec![(*pipeline).clone(), (*bindings).clone()],
+            Command::DispatchIndirect { pipeline, bindings, sizes, .. } => {
+                vec![(*pipeline).clone(), (*bindings).clone(), (*sizes).clone()]
+            }
+            Command::Barrier => Vec::new(),
+        }
+    }
+}
+
+/// Work that was submitted. It keeps what the work uses; dropping it waits for the work.
+pub struct Ticket {
     pool: vk::CommandPool,
     fence: vk::Fence,
     inner: Arc<Inner>,
     done: bool,
-    // Everything that the commands name is borrowed until the work is done.
-    _borrows: std::marker::PhantomData<&'a ()>,
+    // What the commands name lives until the work is done.
+    _keep: Vec<Arc<dyn Any + Send + Sync>>,
 }
 
 impl Gpu {
     /// Records and submits commands.
-    pub fn submit<'a>(&self, commands: &[Command<'a>]) -> Result<Ticket<'a>> {
+    pub fn submit(&self, commands: &[Command<'_>]) -> Result<Ticket> {
         let device = &self.inner.device;
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(self.inner.queue_family);
         // SAFETY: the device is alive; the pool is destroyed by the ticket.
@@ -73,7 +87,7 @@ impl Gpu {
             fence: vk::Fence::null(),
             inner: self.inner.clone(),
             done: true,
-            _borrows: std::marker::PhantomData,
+            _keep: commands.iter().flat_map(Command::uses).collect(),
         };
         // SAFETY: as above.
         ticket.fence =
@@ -167,7 +181,7 @@ unsafe fn barrier(device: &ash::Device, buffer: vk::CommandBuffer) {
     unsafe { device.cmd_pipeline_barrier(buffer, stages, stages | host, flags, &barriers, &[], &[]) };
 }
 
-impl Ticket<'_> {
+impl Ticket {
     /// Waits until the work is done. Messages of the validation layer since then are an error.
     pub fn wait(mut self) -> Result<()> {
         self.finish()?;
@@ -189,7 +203,7 @@ impl Ticket<'_> {
     }
 }
 
-impl Drop for Ticket<'_> {
+impl Drop for Ticket {
     fn drop(&mut self) {
         // A lost device has stopped working too: its objects may go.
         _ = self.finish();

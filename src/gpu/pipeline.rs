@@ -26,8 +26,8 @@ pub struct Bindings {
     pub(super) set: vk::DescriptorSet,
     pool: vk::DescriptorPool,
     views: Vec<vk::BufferView>,
-    // Bound to what is not given; lives as long as the set.
-    _dummy: Buffer,
+    // What is bound lives as long as the set.
+    keep: Vec<Arc<Buffer>>,
     layout: Arc<Layout>,
 }
 
@@ -79,7 +79,7 @@ impl Gpu {
     }
 
     /// Makes a pipeline from SPIR-V with the entry point `main`.
-    pub fn pipeline(&self, name: &str, layout: &Arc<Layout>, spirv: &[u32]) -> Result<Pipeline> {
+    pub fn pipeline(&self, name: &str, layout: &Arc<Layout>, spirv: &[u32]) -> Result<Arc<Pipeline>> {
         let device = &self.inner.device;
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
         // SAFETY: the words come from glslang; the module is destroyed below.
@@ -97,11 +97,11 @@ impl Gpu {
         };
         let pipelines = check(made.map_err(|(_, code)| code), &format!("compile kernel `{name}`"))?;
         let raw = pipelines.first().copied().unwrap_or_default();
-        Ok(Pipeline { raw, layout: layout.clone() })
+        Ok(Arc::new(Pipeline { raw, layout: layout.clone() }))
     }
 
     /// Makes a descriptor set. Each buffer is named by the table; a name that is not in it is an error.
-    pub fn bindings(&self, layout: &Arc<Layout>, buffers: &[(&str, &Buffer)]) -> Result<Bindings> {
+    pub fn bindings(&self, layout: &Arc<Layout>, buffers: &[(&str, &Arc<Buffer>)]) -> Result<Arc<Bindings>> {
         if let Some((name, _)) = buffers.iter().find(|(name, _)| BINDINGS.iter().all(|b| b.name != *name)) {
             return Err(Error::device(format!("no binding is called `{name}`")));
         }
@@ -124,7 +124,7 @@ impl Gpu {
             pool,
             views: Vec::new(),
             layout: layout.clone(),
-            _dummy: dummy,
+            keep: vec![dummy.clone()],
         };
         let sets = [layout.set];
         let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&sets);
@@ -134,16 +134,16 @@ impl Gpu {
         for binding in BINDINGS {
             let given = buffers.iter().find(|(name, _)| *name == binding.name).map(|(_, buffer)| *buffer);
             for (number, kind) in descriptors(binding, layout.backend) {
-                bound.bind(binding.name, number, kind, given)?;
+                bound.bind(binding.name, number, kind, given.unwrap_or(&dummy))?;
             }
         }
-        Ok(bound)
+        Ok(Arc::new(bound))
     }
 }
 
 impl Bindings {
-    fn bind(&mut self, name: &str, number: u32, kind: vk::DescriptorType, given: Option<&Buffer>) -> Result<()> {
-        let buffer = given.unwrap_or(&self._dummy);
+    fn bind(&mut self, name: &str, number: u32, kind: vk::DescriptorType, buffer: &Arc<Buffer>) -> Result<()> {
+        self.keep.push(buffer.clone());
         let inner = &self.layout.inner;
         check_limit(inner, name, kind, buffer.bytes())?;
         let buffers = [vk::DescriptorBufferInfo::default().buffer(buffer.raw).range(vk::WHOLE_SIZE)];
@@ -154,8 +154,7 @@ impl Bindings {
                 .buffer(buffer.raw)
                 .format(vk::Format::R32G32B32A32_UINT)
                 .range(vk::WHOLE_SIZE);
-            // SAFETY: the buffer has texel usage; the view is kept in `views` and goes before the buffer's memory
-            // is used by anything else, because sets are dropped before their buffers.
+            // SAFETY: the buffer has texel usage and is kept as long as the view in `views`.
             let view = check(unsafe { inner.device.create_buffer_view(&info, None) }, &format!("view `{name}`"))?;
             self.views.push(view);
             texels[0] = view;
@@ -199,14 +198,14 @@ impl Drop for Layout {
 
 impl Drop for Pipeline {
     fn drop(&mut self) {
-        // SAFETY: whoever submits work keeps the pipelines of it until the work is done (see `Ticket`).
+        // SAFETY: a ticket keeps the pipelines of its work until that is done.
         unsafe { self.layout.inner.device.destroy_pipeline(self.raw, None) };
     }
 }
 
 impl Drop for Bindings {
     fn drop(&mut self) {
-        // SAFETY: whoever submits work keeps the bindings of it until the work is done (see `Ticket`).
+        // SAFETY: a ticket keeps the bindings of its work until that is done.
         unsafe {
             for view in &self.views {
                 self.layout.inner.device.destroy_buffer_view(*view, None);

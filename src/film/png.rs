@@ -1,0 +1,146 @@
+//! PNG: exposure, the sRGB curve, 8 or 16 bits, straight alpha.
+
+use std::io;
+
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder, ImageError};
+
+use super::Picture;
+use crate::scene;
+
+/// Bytes of a PNG file of the window of the picture.
+pub(super) fn encode(picture: &Picture, film: &scene::Film) -> io::Result<Vec<u8>> {
+    let pixels = straight_srgb(picture, film);
+    let bytes = match film.png_bits {
+        8 => pixels.map(|v| quantize(v, 255.0) as u8).collect(),
+        16 => pixels.flat_map(|v| quantize(v, 65535.0).to_ne_bytes()).collect::<Vec<u8>>(),
+        bits => return Err(io::Error::other(format!("{bits} bits a channel, a PNG has 8 or 16"))),
+    };
+    let kind = match (film.transparent, film.png_bits) {
+        (false, 8) => ExtendedColorType::Rgb8,
+        (true, 8) => ExtendedColorType::Rgba8,
+        (false, _) => ExtendedColorType::Rgb16,
+        (true, _) => ExtendedColorType::Rgba16,
+    };
+    let window = picture.frame.window;
+    let mut file = Vec::new();
+    PngEncoder::new(&mut file).write_image(&bytes, window.width(), window.height(), kind).map_err(
+        |error| match error {
+            ImageError::IoError(error) => error,
+            other => io::Error::other(other),
+        },
+    )?;
+    Ok(file)
+}
+
+/// Channels of all pixels in order, encoded but not yet rounded; alpha, where it is written, is linear.
+fn straight_srgb<'a>(picture: &'a Picture, film: &scene::Film) -> impl Iterator<Item = f64> + 'a {
+    let gain = f64::from(film.exposure).exp2();
+    let transparent = film.transparent;
+    picture.rgb.iter().zip(&picture.alpha).flat_map(move |(rgb, &alpha)| {
+        // Colour in the film is premultiplied by coverage, in a PNG it is not
+        let alpha = f64::from(alpha);
+        let scale = match (transparent, alpha > 0.0) {
+            (false, _) => gain,
+            (true, true) => gain / alpha,
+            (true, false) => 0.0,
+        };
+        let [r, g, b] = rgb.map(|v| srgb_from_linear(f64::from(v) * scale));
+        [r, g, b, alpha].into_iter().take(if transparent { 4 } else { 3 })
+    })
+}
+
+/// The sRGB curve of IEC 61966-2-1, without a limit above.
+fn srgb_from_linear(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The nearest whole number of `1 / top`, with values outside 0 to 1 clamped.
+fn quantize(value: f64, top: f64) -> u16 {
+    (value.clamp(0.0, 1.0) * top).round() as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::tests::picture_of;
+    use crate::scene::Rect;
+    use image::{ColorType, DynamicImage, ImageReader};
+    use std::io::Cursor;
+
+    fn decode(file: Vec<u8>) -> DynamicImage {
+        ImageReader::with_format(Cursor::new(file), image::ImageFormat::Png).decode().unwrap()
+    }
+
+    fn film(exposure: f32, png_bits: u32, transparent: bool) -> scene::Film {
+        scene::Film { exposure, png_bits, transparent, ..Default::default() }
+    }
+
+    #[test]
+    fn curve_has_the_values_of_the_standard() {
+        assert_eq!(srgb_from_linear(0.0), 0.0);
+        assert!((srgb_from_linear(1.0) - 1.0).abs() < 1e-15);
+        // The two pieces of the standard meet to about 1e-8, so its rounded constants leave no visible step
+        assert!((srgb_from_linear(0.003_130_8) - srgb_from_linear(0.003_130_800_1)).abs() < 1e-7);
+        // Middle values of every 8-bit code come back as that code
+        for code in 0..=255u16 {
+            let encoded = f64::from(code) / 255.0;
+            let linear =
+                if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
+            assert_eq!(quantize(srgb_from_linear(linear), 255.0), code);
+        }
+    }
+
+    #[test]
+    fn rounds_to_nearest_and_clamps() {
+        assert_eq!(quantize(0.4999 / 255.0, 255.0), 0);
+        assert_eq!(quantize(0.5001 / 255.0, 255.0), 1);
+        assert_eq!(quantize(7.0, 255.0), 255);
+        assert_eq!(quantize(-7.0, 65535.0), 0);
+        assert_eq!(quantize(f64::INFINITY, 65535.0), 65535);
+        assert_eq!(quantize(f64::NAN, 255.0), 0);
+    }
+
+    #[test]
+    fn opaque_pictures_round_trip_in_8_and_16_bits() {
+        let window = Rect { x0: 1, y0: 2, x1: 3, y1: 3 };
+        let mut picture = picture_of(5, 4, window);
+        picture.rgb = vec![[0.0, 0.5, 1.0], [0.25, 2.0, 0.001]];
+        let eight = decode(encode(&picture, &film(0.0, 8, false)).unwrap());
+        assert_eq!(eight.color(), ColorType::Rgb8);
+        assert_eq!((eight.width(), eight.height()), (2, 1));
+        // 0.5 is 187.5 -> 188, 0.25 is 136.96 -> 137, 0.001 is 3.29 -> 3
+        assert_eq!(eight.as_bytes(), [0, 188, 255, 137, 255, 3]);
+        let sixteen = decode(encode(&picture, &film(0.0, 16, false)).unwrap());
+        assert_eq!(sixteen.color(), ColorType::Rgb16);
+        assert_eq!(sixteen.into_rgb16().into_raw(), [0, 48192, 65535, 35199, 65535, 847]);
+    }
+
+    #[test]
+    fn exposure_is_in_stops() {
+        let mut picture = picture_of(1, 1, Rect { x0: 0, y0: 0, x1: 1, y1: 1 });
+        picture.rgb = vec![[0.125, 0.25, 0.5]];
+        let lifted = decode(encode(&picture, &film(1.0, 8, false)).unwrap());
+        picture.rgb = vec![[0.25, 0.5, 1.0]];
+        assert_eq!(lifted.as_bytes(), decode(encode(&picture, &film(0.0, 8, false)).unwrap()).as_bytes());
+    }
+
+    #[test]
+    fn alpha_is_straight_and_linear() {
+        let mut picture = picture_of(3, 1, Rect { x0: 0, y0: 0, x1: 3, y1: 1 });
+        picture.rgb = vec![[0.25, 0.125, 0.0], [0.5, 0.5, 0.5], [0.5, 0.0, 0.0]];
+        picture.alpha = vec![0.5, 1.0, 0.0];
+        let file = decode(encode(&picture, &film(0.0, 8, true)).unwrap());
+        assert_eq!(file.color(), ColorType::Rgba8);
+        assert_eq!(file.as_bytes(), [188, 137, 0, 128, 188, 188, 188, 255, 0, 0, 0, 0]);
+        let file = decode(encode(&picture, &film(0.0, 16, true)).unwrap()).into_rgba16().into_raw();
+        assert_eq!(file[..4], [48192, 35199, 0, 32768]);
+    }
+
+    #[test]
+    fn refuses_other_depths() {
+        let picture = picture_of(1, 1, Rect { x0: 0, y0: 0, x1: 1, y1: 1 });
+        let error = encode(&picture, &film(0.0, 12, false)).unwrap_err();
+        assert_eq!(error.to_string(), "12 bits a channel, a PNG has 8 or 16");
+    }
+}

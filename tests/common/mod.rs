@@ -1,0 +1,6 @@
+//! What integration tests share. Every file of `tests/` uses a part of it.
+#![allow(dead_code, reason = "each test program compiles all of it and uses some")]
+
+pub mod compare;
+pub mod references;
+pub mod student;
