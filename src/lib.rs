@@ -3,5 +3,6 @@
 mod error;
 pub mod import;
 pub mod scene;
+pub mod shader;
 
 pub use error::{Error, ErrorKind, Place, Result};

@@ -1,0 +1,3 @@
+// Constants of mathematics.
+
+const float PI = 3.14159265358979;
