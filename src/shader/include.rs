@@ -1,6 +1,7 @@
 //! Answers glslang's `#include`: names relative to the root of the tree, each file once.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use glslang::include::{IncludeHandler, IncludeResult, IncludeType};
 
@@ -11,6 +12,11 @@ const MAX_DEPTH: usize = 32;
 
 /// How much text may go into one kernel.
 const MAX_TOTAL_BYTES: usize = 16 << 20;
+
+/// How many operators, brackets and commas one statement may have. glslang turns a sum of n terms into a tree n
+/// levels deep and walks it by recursion; 400,000 terms were measured to fit the stack of `stack.rs`. Not seen: what
+/// macros expand to.
+const MAX_OPERATORS: usize = 100_000;
 
 /// Reads the text of a file by its name.
 pub(super) type Read<'a> = &'a (dyn Fn(&str) -> Result<String> + Sync);
@@ -42,6 +48,7 @@ impl<'a> Includes<'a> {
             return Err(Error::device(format!("more than {limit} MiB of text go into one kernel")));
         }
         refuse_reserved_directives(name, &text)?;
+        refuse_endless_statements(name, &text)?;
         self.files.insert(name.to_owned());
         Ok(plain_ascii(&text))
     }
@@ -88,8 +95,27 @@ fn refuse_reserved_directives(name: &str, text: &str) -> Result<()> {
     for (line, number) in text.lines().zip(1u32..) {
         if let Some((word @ ("version" | "extension"), _)) = directive(line) {
             return Err(Error::device(format!("a shader file must not have a line #{word}"))
-                .at(std::path::Path::new(name), number, 0)
+                .at(Path::new(name), number, 0)
                 .help("remove the line: the compiler writes the same one in front of every kernel"));
+        }
+    }
+    Ok(())
+}
+
+fn refuse_endless_statements(name: &str, text: &str) -> Result<()> {
+    let mut operators = 0;
+    for (line, number) in text.lines().zip(1u32..) {
+        for c in line.split("//").next().unwrap_or_default().chars() {
+            match c {
+                ';' | '{' | '}' => operators = 0,
+                c if c.is_ascii_punctuation() && c != '_' => operators += 1,
+                _ => {}
+            }
+            if operators > MAX_OPERATORS {
+                return Err(Error::device(format!("one statement has more than {MAX_OPERATORS} operators"))
+                    .at(Path::new(name), number, 0)
+                    .help("split it, or give a large table as a buffer or a texture"));
+            }
         }
     }
     Ok(())

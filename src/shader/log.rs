@@ -93,7 +93,9 @@ fn without_severity(line: &str) -> Option<&str> {
 fn split_place(text: &str) -> Option<(&str, u32, &str)> {
     text.match_indices(": ").find_map(|(at, _)| {
         let (file, line) = text.get(..at)?.rsplit_once(':')?;
-        Some((file, line.parse().ok()?, text.get(at + 2..)?))
+        // A `#line` in generated text may have set any number; below zero counts as unknown.
+        let line: i64 = line.parse().ok()?;
+        Some((file, u32::try_from(line).unwrap_or(0), text.get(at + 2..)?))
     })
 }
 
@@ -150,6 +152,11 @@ mod tests {
     fn a_problem_in_the_text_of_a_scene_is_a_problem_of_the_scene() {
         assert_eq!(error("ERROR: base/b.glsl:3: 'x' : bad").unwrap().kind, ErrorKind::Device);
         assert_eq!(error("ERROR: generated/textures.glsl:3: 'x' : bad").unwrap().kind, ErrorKind::Scene);
+    }
+
+    #[test]
+    fn a_line_below_zero_is_unknown() {
+        assert_eq!(error("ERROR: a b.glsl:-1: 'x' : bad: 3").unwrap().to_string(), "a b.glsl: 'x': bad: 3");
     }
 
     #[test]

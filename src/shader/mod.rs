@@ -2,7 +2,7 @@
 //!
 //! [`Sources`] holds the tree of shader files. [`Compiler::kernel`] turns one of them, with its defines, into
 //! [`Spirv`], from the disk cache where it can. [`Reflection`] says what a kernel expects of its host as far as
-//! naga can read it, [`scan`] as far as the bare words say it.
+//! naga can read it, [`scan()`] as far as the bare words say it.
 //!
 //! Every file is written for one tree: `#include "room/file.glsl"` is relative to the root, never to the file that
 //! it stands in; a file goes into a kernel once, however often it is included; `#version` and `#extension` are
@@ -18,6 +18,8 @@ mod reflect;
 mod scan;
 mod source;
 mod stack;
+#[cfg(test)]
+mod tests;
 
 pub use cache::CacheOptions;
 pub use compile::{KernelKey, Spirv, compile};
