@@ -12,7 +12,8 @@ mod materials;
 mod textures;
 mod variant;
 
-pub use variant::{Stage, defines};
+pub(crate) use environment::rows as environment_rows;
+pub use variant::{Stage, defines, stack_size};
 
 use crate::Result;
 use crate::layout::{EnvironmentCell, Face, Instance, Light, Material, Node, Triangle, Vertex};

@@ -1,1 +1,282 @@
+//! [`Resident`] → [`Film`]: the plan and its execution.
 
+mod frame;
+mod kernels;
+pub mod plan;
+mod resident;
+mod wave;
+
+pub use kernels::{Kernels, key};
+pub use resident::Resident;
+
+use crate::film::{self, Film};
+use crate::gpu::{Buffer, Command, DeviceType, Gpu, Place};
+use crate::layout::{Backend, FILM_PLANES, Frame, TILE, WORD_BYTES, WORKGROUP};
+use crate::prepare::Prepared;
+use crate::scene::{Rect, Scene};
+use crate::{Error, Result};
+use plan::{Plan, Slice, Tiles};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use wave::Wave;
+
+/// How a render is cut into slices. The pixels do not depend on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Slicing {
+    /// Most paths of a slice.
+    pub slots: u32,
+    /// Time that a slice should take; the number of paths follows it from below `slots`.
+    pub budget: Duration,
+}
+
+/// What a render did so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Samples a pixel that every pixel has.
+    pub spp: u32,
+    /// Share of the work that is done, 0..=1.
+    pub done: f64,
+    /// Paths that were traced.
+    pub samples: u64,
+    /// Since the first slice began.
+    pub elapsed: Duration,
+}
+
+/// Whether a render goes on. It is asked after every slice; it stops at the end of a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Next {
+    /// Go on.
+    Continue,
+    /// Stop when every pixel has the same number of samples.
+    Stop,
+}
+
+/// A scene on a device, ready to render.
+pub struct Renderer {
+    gpu: Arc<Gpu>,
+    kernels: Kernels,
+    resident: Resident,
+    frame: Frame,
+    film_frame: film::Frame,
+    slicing: Slicing,
+}
+
+impl Slicing {
+    /// What suits a device.
+    pub fn of(gpu: &Gpu) -> Self {
+        if gpu.info().kind == DeviceType::Cpu {
+            Self { slots: 1 << 16, budget: Duration::from_millis(60) }
+        } else {
+            Self { slots: 1 << 20, budget: Duration::from_millis(60) }
+        }
+    }
+}
+
+/// The back end that is fastest on a device.
+pub fn backend_of(gpu: &Gpu) -> Backend {
+    if gpu.info().kind == DeviceType::Cpu { Backend::Texel } else { Backend::Storage }
+}
+
+/// Threads among which a driver cuts a dispatch into contiguous parts.
+fn threads_of(gpu: &Gpu) -> u32 {
+    if gpu.info().kind != DeviceType::Cpu {
+        return 1;
+    }
+    let named = std::env::var("LP_NUM_THREADS").ok().and_then(|text| text.parse().ok());
+    named.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, |n| n.get() as u32)).clamp(1, 1024)
+}
+
+impl Renderer {
+    /// Puts a scene on the device. `prepared` loses its large parts on the way.
+    pub fn new(
+        gpu: Arc<Gpu>,
+        kernels: Kernels,
+        scene: &Scene,
+        prepared: &mut Prepared,
+        slicing: Slicing,
+    ) -> Result<Self> {
+        let resident = Resident::upload(&gpu, prepared)?;
+        let frame = frame::of_scene(scene, prepared, threads_of(&gpu));
+        let film_frame = film::Frame {
+            width: scene.film.width,
+            height: scene.film.height,
+            window: scene.film.window(),
+            radiance_exponent: prepared.radiance_exponent,
+            depth_exponent: prepared.depth_exponent,
+            seed: scene.render.seed,
+        };
+        Ok(Self { gpu, kernels, resident, frame, film_frame, slicing })
+    }
+
+    /// Bytes of the scene on the device.
+    pub fn scene_bytes(&self) -> u64 {
+        self.resident.bytes()
+    }
+
+    /// Renders samples `first_sample..first_sample + spp` of every pixel. `watch` is told after every slice.
+    pub fn render(
+        &self,
+        first_sample: u32,
+        spp: u32,
+        watch: &mut dyn FnMut(&Progress) -> Next,
+    ) -> Result<Film> {
+        let tiles = Tiles::of(self.film_frame.window);
+        let pixel_bytes = u64::from(FILM_PLANES) * WORD_BYTES;
+        let tile_bytes = pixel_bytes * u64::from(WORKGROUP);
+        let most = (self.gpu.info().limits.storage_buffer_bytes.min(MOST_FILM_BYTES) / tile_bytes).max(1);
+        let band = tiles.count().min(u32::try_from(most).unwrap_or(u32::MAX));
+        let mut plan = Plan::new(tiles.count(), band, first_sample, spp);
+        let film = self.gpu.buffer("film", u64::from(band) * tile_bytes, Place::Device)?;
+        let host = self.gpu.buffer("film (host)", film.bytes(), Place::Readback)?;
+        self.gpu.run(&[Command::Fill { buffer: &film, bytes: film.bytes(), value: 0 }, Command::Barrier])?;
+        let work = u64::from(tiles.count()) * u64::from(WORKGROUP) * u64::from(spp);
+        let most_slots = self.slots_within_limits(work);
+        let mut run = Run {
+            renderer: self,
+            waves: [self.wave(&film, most_slots)?, self.wave(&film, most_slots)?],
+            frames: [self.frame; 2],
+            sums: Film::new(self.film_frame)?,
+            device_film: film,
+            host_film: host,
+            dirty: None,
+            most_slots,
+            slots: most_slots,
+        };
+        run.all(&mut plan, work, watch)?;
+        Ok(run.sums)
+    }
+
+    fn wave(&self, film: &Arc<Buffer>, slots: u32) -> Result<Wave> {
+        Wave::new(&self.gpu, &self.kernels, &self.resident, film, &self.frame, slots)
+    }
+
+    /// Slots of a wave, a whole number of workgroups: no more than the work, and no buffer beyond the limits.
+    fn slots_within_limits(&self, work: u64) -> u32 {
+        let limit = self.gpu.info().limits.storage_buffer_bytes / Wave::slot_bytes(&self.frame);
+        let slots = u64::from(self.slicing.slots).min(limit).min(work.max(1));
+        (slots as u32).next_multiple_of(WORKGROUP).max(WORKGROUP)
+    }
+}
+
+/// Bytes of film that are kept on the device at once.
+const MOST_FILM_BYTES: u64 = 1 << 30;
+
+/// A render under way.
+struct Run<'a> {
+    renderer: &'a Renderer,
+    waves: [Wave; 2],
+    frames: [Frame; 2],
+    sums: Film,
+    device_film: Arc<Buffer>,
+    host_film: Arc<Buffer>,
+    /// The band whose sums are on the device: first tile, tiles.
+    dirty: Option<(u32, u32)>,
+    most_slots: u32,
+    slots: u32,
+}
+
+impl Run<'_> {
+    fn all(&mut self, plan: &mut Plan, work: u64, watch: &mut dyn FnMut(&Progress) -> Next) -> Result<()> {
+        let start = Instant::now();
+        let (mut samples, mut stop, mut turn) = (0_u64, false, 0_usize);
+        let mut last = start;
+        while let Some(slice) = plan.next(self.slots) {
+            let band = plan.band_of(slice.first_tile);
+            if self.dirty.is_some_and(|dirty| dirty != band) {
+                self.bring_home()?;
+            }
+            self.start(turn, &slice, band)?;
+            // The slice before this one has been computed meanwhile.
+            self.finish(1 - turn)?;
+            self.adapt(&slice, last.elapsed());
+            last = Instant::now();
+            turn = 1 - turn;
+            samples += u64::from(slice.slots());
+            let progress = Progress {
+                spp: slice.first_sample + if plan.at_pass_end() { slice.samples } else { 0 },
+                done: samples as f64 / work.max(1) as f64,
+                samples,
+                elapsed: start.elapsed(),
+            };
+            stop |= watch(&progress) == Next::Stop;
+            if stop && plan.at_pass_end() {
+                break;
+            }
+        }
+        self.bring_home()
+    }
+
+    fn start(&mut self, turn: usize, slice: &Slice, band: (u32, u32)) -> Result<()> {
+        self.dirty = Some(band);
+        self.frames[turn] = frame::of_slice(&self.renderer.frame, slice, band);
+        self.waves[turn].start(&self.renderer.gpu, &self.renderer.kernels, &self.frames[turn])
+    }
+
+    fn finish(&mut self, turn: usize) -> Result<()> {
+        self.waves[turn].finish(&self.renderer.gpu, &self.renderer.kernels, &self.frames[turn])
+    }
+
+    /// Follows the time budget by steps of two, so that slices keep to few sizes.
+    fn adapt(&mut self, slice: &Slice, took: Duration) {
+        let budget = self.renderer.slicing.budget;
+        if took > budget * 2 && slice.slots() >= self.slots / 2 {
+            self.slots = (self.slots / 2).max(LEAST_SLOTS.min(self.most_slots));
+        } else if took < budget / 4 {
+            self.slots = (self.slots * 2).min(self.most_slots);
+        }
+    }
+
+    /// Adds the sums on the device to those of the host, and clears them.
+    fn bring_home(&mut self) -> Result<()> {
+        self.finish(0)?;
+        self.finish(1)?;
+        let Some((first, count)) = self.dirty.take() else { return Ok(()) };
+        let gpu = &self.renderer.gpu;
+        let bytes = u64::from(count) * u64::from(WORKGROUP) * u64::from(FILM_PLANES) * WORD_BYTES;
+        gpu.run(&[
+            Command::Barrier,
+            Command::Copy { from: &self.device_film, to: &self.host_film, bytes },
+            Command::Barrier,
+            Command::Fill { buffer: &self.device_film, bytes: self.device_film.bytes(), value: 0 },
+            Command::Barrier,
+        ])?;
+        let window = self.renderer.film_frame.window;
+        let sums = &mut self.sums;
+        self.host_film.read(bytes, |words| add_tiles(sums, window, first, count, words))?
+    }
+}
+
+/// Fewest paths of a slice: below it, starting kernels takes longer than running them.
+const LEAST_SLOTS: u32 = 4096;
+
+/// Adds tiles, whose pixels are in Morton order and whose planes hold all of them, to the film.
+fn add_tiles(sums: &mut Film, window: Rect, first: u32, count: u32, words: &[u32]) -> Result<()> {
+    let columns = Tiles::of(window).columns;
+    let pixels = count as usize * WORKGROUP as usize;
+    if words.len() != pixels * FILM_PLANES as usize * 4 {
+        return Err(Error::device("the film on the device has the wrong length"));
+    }
+    let mut tile_words = Vec::new();
+    for tile in 0..count {
+        let at = first + tile;
+        let (x0, y0) = (window.x0 + at % columns * TILE, window.y0 + at / columns * TILE);
+        let rect = Rect { x0, y0, x1: (x0 + TILE).min(window.x1), y1: (y0 + TILE).min(window.y1) };
+        tile_words.clear();
+        for plane in 0..FILM_PLANES as usize {
+            for y in 0..rect.height() {
+                for x in 0..rect.width() {
+                    let pixel = plane * pixels + (tile * WORKGROUP + morton(x, y)) as usize;
+                    tile_words.extend_from_slice(&words[4 * pixel..4 * pixel + 4]);
+                }
+            }
+        }
+        sums.add(rect, &tile_words)?;
+    }
+    Ok(())
+}
+
+/// Lane of a pixel of a tile, as `tile_pixel` in `stages/wave.glsl` has it.
+fn morton(x: u32, y: u32) -> u32 {
+    let spread = |v: u32| v & 1 | (v & 2) << 1 | (v & 4) << 2;
+    spread(x) | spread(y) << 1
+}

@@ -1,0 +1,76 @@
+//! The uniform block: what stays the same during a slice.
+
+use super::plan::{Slice, Tiles};
+use crate::layout::Frame;
+use crate::prepare::{self, Prepared};
+use crate::scene::{Scene, Value};
+use glam::Vec3;
+
+/// The part of the block that no slice changes.
+pub(super) fn of_scene(scene: &Scene, prepared: &Prepared, threads: u32) -> Frame {
+    let (film, render, camera) = (&scene.film, &scene.render, &scene.camera);
+    let window = film.window();
+    let aspect = film.width as f32 / film.height as f32;
+    let world = camera.world_from_camera();
+    let tan_y = camera.tan_half_vertical_fov(aspect);
+    let mut frame = Frame {
+        camera_right: Vec3::from(world.matrix3.x_axis).to_array(),
+        tan_x: tan_y * aspect,
+        camera_up: Vec3::from(world.matrix3.y_axis).to_array(),
+        tan_y,
+        camera_back: Vec3::from(world.matrix3.z_axis).to_array(),
+        lens_radius: camera.lens_radius(aspect),
+        camera_position: camera.position.to_array(),
+        focus_distance: camera.lens.map_or(1.0, |lens| lens.focus_distance),
+        blades: camera.lens.map_or(0, |lens| lens.blades),
+        blade_rotation: camera.lens.map_or(0.0, |lens| lens.blade_rotation.to_radians()),
+        filter_radius: film.filter.radius,
+        seed: render.seed,
+        film_size: [film.width, film.height],
+        window_min: [window.x0, window.y0],
+        window_max: [window.x1, window.y1],
+        tiles_x: Tiles::of(window).columns,
+        threads,
+        strata: render.strata,
+        max_depth: render.max_depth,
+        diffuse_bounces: render.diffuse_bounces.unwrap_or(u32::MAX),
+        root: prepared.root,
+        step_limit: STEP_LIMIT,
+        light_count: prepared.lights.len() as u32,
+        environment_chance: prepared.environment_chance,
+        firefly_clamp: render.firefly_clamp.unwrap_or(0.0),
+        radiance_scale: (-prepared.radiance_exponent as f32).exp2(),
+        depth_scale: (-prepared.depth_exponent as f32).exp2(),
+        environment_texture: prepared.environment_texture,
+        environment_size: prepared.environment_size,
+        parked_stack: prepare::stack_size(prepared.stack_entries),
+        ..Frame::default()
+    };
+    if let Some(environment) = &scene.environment {
+        let [row0, row1, row2] = prepare::environment_rows(environment);
+        (frame.environment_row0, frame.environment_row1, frame.environment_row2) = (row0, row1, row2);
+        frame.environment_scale = environment.scale;
+        if let Value::Constant(radiance) = environment.radiance {
+            frame.environment_radiance = (radiance * environment.scale).to_array();
+        }
+    }
+    frame
+}
+
+/// Steps of a ray in one dispatch. Mesa before 25.0 leaves all loops of a subgroup after 65,535 rounds; a step is at most
+/// three rounds of a loop, and the lanes of a subgroup take turns at worst in two of them.
+const STEP_LIMIT: u32 = 12_000;
+
+/// The block of a slice.
+pub(super) fn of_slice(scene: &Frame, slice: &Slice, band: (u32, u32)) -> Frame {
+    Frame {
+        first_tile: slice.first_tile,
+        tile_count: slice.tiles,
+        first_sample: slice.first_sample,
+        sample_count: slice.samples,
+        slot_count: slice.slots(),
+        film_first_tile: band.0,
+        film_tile_count: band.1,
+        ..*scene
+    }
+}

@@ -1,0 +1,51 @@
+//! The kernels of a scene on a device.
+
+use crate::Result;
+use crate::gpu::{Gpu, Layout, Pipeline};
+use crate::layout::Backend;
+use crate::prepare::{self, Prepared, Stage};
+use crate::scene::Scene;
+use crate::shader::{Compiler, KernelKey};
+use std::sync::Arc;
+
+/// One pipeline a stage of the wave.
+pub struct Kernels {
+    layout: Arc<Layout>,
+    pipelines: Vec<(Stage, Arc<Pipeline>)>,
+}
+
+/// The key under which a stage of a scene is compiled.
+pub fn key(scene: &Scene, prepared: &Prepared, stage: Stage, backend: Backend) -> KernelKey {
+    KernelKey { defines: prepare::defines(scene, prepared, stage, backend), ..KernelKey::new(stage.file()) }
+}
+
+impl Kernels {
+    /// Compiles all stages for a scene and makes their pipelines. Gives the texture code of the scene to `compiler`.
+    pub fn new(
+        gpu: &Gpu,
+        compiler: &mut Compiler,
+        scene: &Scene,
+        prepared: &Prepared,
+        backend: Backend,
+    ) -> Result<Self> {
+        compiler.sources_mut().set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str())?;
+        let layout = gpu.layout(backend)?;
+        let mut pipelines = Vec::new();
+        for stage in Stage::ALL {
+            let spirv = compiler.kernel(&key(scene, prepared, stage, backend))?;
+            pipelines.push((stage, gpu.pipeline(stage.file(), &layout, &spirv.words)?));
+        }
+        Ok(Self { layout, pipelines })
+    }
+
+    /// The layout that all of them share.
+    pub fn layout(&self) -> &Arc<Layout> {
+        &self.layout
+    }
+
+    /// The pipeline of a stage.
+    pub fn pipeline(&self, stage: Stage) -> &Arc<Pipeline> {
+        // Made for every stage, in the order of `Stage::ALL`, which is that of the enum.
+        &self.pipelines[stage as usize].1
+    }
+}

@@ -1,0 +1,45 @@
+//! [`Prepared`] → [`Resident`]: the buffers of a scene on the device.
+
+use crate::gpu::{Buffer, Gpu};
+use crate::prepare::Prepared;
+use crate::Result;
+use std::sync::Arc;
+
+/// The buffers that the kernels read of a scene, by the names of the table of bindings.
+pub struct Resident {
+    buffers: Vec<(&'static str, Arc<Buffer>)>,
+}
+
+impl Resident {
+    /// Puts a prepared scene on the device. It is taken apart on the way, so that host and device do not both hold it.
+    pub fn upload(gpu: &Gpu, prepared: &mut Prepared) -> Result<Self> {
+        let mut buffers = Vec::new();
+        let mut put = |name: &'static str, bytes: &[u8]| -> Result<()> {
+            if !bytes.is_empty() {
+                buffers.push((name, gpu.upload(name, bytes)?));
+            }
+            Ok(())
+        };
+        put("nodes", bytemuck::cast_slice(&std::mem::take(&mut prepared.nodes)))?;
+        put("triangles", bytemuck::cast_slice(&std::mem::take(&mut prepared.triangles)))?;
+        put("instances", bytemuck::cast_slice(&prepared.instances))?;
+        put("faces", bytemuck::cast_slice(&std::mem::take(&mut prepared.faces)))?;
+        put("vertices", bytemuck::cast_slice(&std::mem::take(&mut prepared.vertices)))?;
+        put("materials", bytemuck::cast_slice(&prepared.materials))?;
+        put("textures", bytemuck::cast_slice(&prepared.textures))?;
+        put("texels", bytemuck::cast_slice(&std::mem::take(&mut prepared.texels)))?;
+        put("lights", bytemuck::cast_slice(&prepared.lights))?;
+        put("environment", bytemuck::cast_slice(&std::mem::take(&mut prepared.environment)))?;
+        Ok(Self { buffers })
+    }
+
+    /// The buffers with their names.
+    pub fn buffers(&self) -> impl Iterator<Item = (&'static str, &Arc<Buffer>)> {
+        self.buffers.iter().map(|(name, buffer)| (*name, buffer))
+    }
+
+    /// Bytes of all buffers.
+    pub fn bytes(&self) -> u64 {
+        self.buffers.iter().map(|(_, buffer)| buffer.bytes()).sum()
+    }
+}
