@@ -1,0 +1,32 @@
+//! Whole files in memory.
+
+use crate::{Error, Result};
+use std::path::Path;
+
+/// Reads a file. Only regular files are read: a device or a pipe could go on for ever.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
+    let failed = |e: std::io::Error| {
+        Error::scene(format!("the file cannot be read: {e}"))
+            .help("check its name and permissions")
+            .in_file(path)
+    };
+    let metadata = std::fs::metadata(path).map_err(failed)?;
+    if !metadata.is_file() {
+        return Err(Error::scene("this is not a regular file").help("name a file").in_file(path));
+    }
+    std::fs::read(path).map_err(failed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_files_and_folders_are_errors_with_their_name() {
+        let missing = Path::new("/nonexistent/bunny.ply");
+        let error = read_bytes(missing).unwrap_err();
+        assert!(error.to_string().starts_with("/nonexistent/bunny.ply: the file cannot be read"), "{error}");
+        let folder = std::env::temp_dir();
+        assert!(read_bytes(&folder).unwrap_err().message.contains("not a regular file"));
+    }
+}
