@@ -1,5 +1,6 @@
 //! The readers against the collection of good and malformed files in `../shared/assets`.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // Helpers of tests are tests too.
 use dapple::import::{read_image, read_mesh};
 use dapple::scene::{Image, Texels};
 use std::path::{Path, PathBuf};

@@ -67,7 +67,9 @@ fn group<T: Copy>(channels: &[T]) -> Vec<[T; 4]> {
 }
 
 fn refused(error: ImageError) -> Error {
-    Error::scene(format!("the picture cannot be decoded: {error}"))
+    // Some messages of the decoders have line ends.
+    let reason = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    Error::scene(format!("the picture cannot be decoded: {reason}"))
         .help("check that it is complete, or write it again")
 }
 

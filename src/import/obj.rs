@@ -3,7 +3,7 @@
 //! The parser is our own: `tobj` gives no line numbers with its errors, reads faces of one or two corners as
 //! points and lines, and takes words that are not numbers in some places without a word.
 
-use super::file::read_bytes;
+use super::file::{read_bytes, shown};
 use super::mesh::{normalize_normals, triangulate};
 use crate::scene::{Mesh, MeshPart};
 use crate::{Error, Result};
@@ -141,7 +141,7 @@ impl Reader {
     /// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`.
     fn corner(&self, word: &[u8]) -> Result<Corner> {
         let malformed = || {
-            let message = format!("`{}` is no corner of a face", String::from_utf8_lossy(word));
+            let message = format!("`{}` is no corner of a face", shown(word));
             Error::scene(message).help("write it as v, v/vt, v//vn or v/vt/vn")
         };
         let mut fields = word.split(|&b| b == b'/');
@@ -244,8 +244,7 @@ fn numbers<const N: usize>(thing: &str, rest: &[u8]) -> Result<([f32; N], usize)
     for (word, value) in words(rest).zip(&mut values) {
         let parsed = std::str::from_utf8(word).ok().and_then(|text| text.parse::<f32>().ok());
         *value = parsed.filter(|x| x.is_finite()).ok_or_else(|| {
-            let word = String::from_utf8_lossy(word);
-            Error::scene(format!("`{word}` in a {thing} is not a finite number"))
+            Error::scene(format!("`{}` in a {thing} is not a finite number", shown(word)))
                 .help("export the mesh again without NaN and infinite coordinates")
         })?;
         count += 1;

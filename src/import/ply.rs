@@ -3,7 +3,7 @@
 //! The parser is our own: a crate that gives every face a list of its own takes more than three times the size of
 //! the file in memory, and finds properties by their names for every row. This one goes over the bytes once.
 
-use super::file::read_bytes;
+use super::file::{read_bytes, shown};
 use super::mesh::{normalize_normals, triangulate};
 use super::ply_header::{self, Element, Format, Header, Scalar, is_index_list};
 use crate::scene::{Mesh, MeshPart};
@@ -135,7 +135,7 @@ impl Source for Ascii<'_> {
     fn scalar(&mut self, _: Scalar) -> Result<f64> {
         let word = self.word()?;
         std::str::from_utf8(word).ok().and_then(|text| text.parse().ok()).ok_or_else(|| {
-            Error::scene(format!("`{}` is not a number", String::from_utf8_lossy(word)))
+            Error::scene(format!("`{}` is not a number", shown(word)))
                 .help("check that the values are in the order of the header")
         })
     }

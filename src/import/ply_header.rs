@@ -1,5 +1,6 @@
 //! The header of a PLY file: which elements follow, and what their values are.
 
+use super::file::shown;
 use crate::{Error, Result};
 
 /// How the values after the header are written.
@@ -38,7 +39,7 @@ impl Scalar {
             "float" | "float32" => Self::F32,
             "double" | "float64" => Self::F64,
             _ => {
-                return Err(Error::scene(format!("unknown type `{word}` of a property"))
+                return Err(Error::scene(format!("unknown type `{}` of a property", shown(word.as_bytes())))
                     .help("use char, uchar, short, ushort, int, uint, float or double"));
             }
         })
@@ -126,14 +127,14 @@ fn header_line(words: &[&str], format: &mut Option<Format>, elements: &mut Vec<E
                 "binary_little_endian" => Format::LittleEndian,
                 "binary_big_endian" => Format::BigEndian,
                 _ => {
-                    return Err(Error::scene(format!("unknown format `{name}`"))
+                    return Err(Error::scene(format!("unknown format `{}`", shown(name.as_bytes())))
                         .help("use ascii, binary_little_endian or binary_big_endian"));
                 }
             });
         }
         ["element", name, count] => {
             let count = count.parse().map_err(|_| {
-                Error::scene(format!("`{count}` is no count of {name} elements"))
+                Error::scene(format!("`{}` is no count of elements", shown(count.as_bytes())))
                     .help(format!("use a whole number up to {}", u32::MAX))
             })?;
             if elements.iter().any(|e| e.name == name) {
@@ -152,8 +153,11 @@ fn header_line(words: &[&str], format: &mut Option<Format>, elements: &mut Vec<E
             property(elements, name, Some(count), Scalar::parse(scalar)?)?;
         }
         _ => {
-            return Err(Error::scene(format!("`{}` is no line of a PLY header", words.join(" ")))
-                .help("write format, element, property, comment, obj_info or end_header"));
+            return Err(Error::scene(format!(
+                "`{}` is no line of a PLY header",
+                shown(words.join(" ").as_bytes())
+            ))
+            .help("write format, element, property, comment, obj_info or end_header"));
         }
     }
     Ok(())
