@@ -121,10 +121,7 @@ mod tests {
         let error = Error::scene("radius is -1, must be positive").help("use a length above 0");
         assert_eq!(error.to_string(), "radius is -1, must be positive; use a length above 0");
         let placed = error.at(Path::new("a.toml"), 14, 9).at(Path::new("b.toml"), 1, 1);
-        assert_eq!(
-            placed.to_string(),
-            "a.toml:14:9: radius is -1, must be positive; use a length above 0"
-        );
+        assert_eq!(placed.to_string(), "a.toml:14:9: radius is -1, must be positive; use a length above 0");
         assert_eq!(Error::output("disk full").in_file(Path::new("x.png")).to_string(), "x.png: disk full");
     }
 }

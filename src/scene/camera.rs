@@ -116,7 +116,10 @@ mod tests {
         let m = camera.world_from_camera();
         assert_eq!(m.transform_vector3(-Vec3::Z), -Vec3::Z);
         assert_eq!(m.transform_vector3(Vec3::X), Vec3::X);
-        assert_eq!(Camera { mirrored: true, ..camera }.world_from_camera().transform_vector3(Vec3::X), -Vec3::X);
+        assert_eq!(
+            Camera { mirrored: true, ..camera }.world_from_camera().transform_vector3(Vec3::X),
+            -Vec3::X
+        );
     }
 
     #[test]

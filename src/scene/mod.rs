@@ -17,7 +17,9 @@ pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub use light::{Environment, Light};
 pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Surface};
 pub use store::{Handle, Store};
-pub use texture::{Channel, ColorSpace, Image, ImageTexture, TexelFilter, Texels, Texture, UvTransform, Value, Wrap};
+pub use texture::{
+    Channel, ColorSpace, Image, ImageTexture, TexelFilter, Texels, Texture, UvTransform, Value, Wrap,
+};
 
 /// A whole scene. The handles in it index the [`Store`]s of the same scene.
 #[derive(Debug, Clone, Default)]

@@ -88,9 +88,10 @@ impl<T> Store<T> {
 
     /// All objects with handle and name, in the order of their handles.
     pub fn iter(&self) -> impl Iterator<Item = (Handle<T>, &str, &T)> {
-        self.items.iter().enumerate().map(|(i, (name, item))| {
-            (Handle { index: i as u32, kind: PhantomData }, name.as_str(), item)
-        })
+        self.items
+            .iter()
+            .enumerate()
+            .map(|(i, (name, item))| (Handle { index: i as u32, kind: PhantomData }, name.as_str(), item))
     }
 }
 
