@@ -49,3 +49,41 @@ pub trait Assets {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    struct Files;
+    impl Assets for Files {
+        fn image(&mut self, path: &Path) -> Result<Image> {
+            Err(Error::scene("no picture").in_file(path))
+        }
+        fn mesh(&mut self, path: &Path) -> Result<Mesh> {
+            Err(Error::scene("no mesh").in_file(path))
+        }
+    }
+
+    #[test]
+    fn text_comes_from_a_file_of_utf8() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("scene.toml");
+        fs::write(&path, "[film]\n# é").unwrap();
+        assert_eq!(Files.text(&path).unwrap(), "[film]\n# é");
+        fs::write(&path, b"[film]\n# \xff").unwrap();
+        let error = Files.text(&path).unwrap_err().to_string();
+        assert_eq!(error, format!("{}:2: the scene is not text in UTF-8", path.display()));
+        assert!(!Files.exists(&directory.path().join("other")));
+        let error = Files.text(directory.path()).unwrap_err().to_string();
+        assert!(error.starts_with(&format!("{}: cannot read the scene: ", directory.path().display())));
+    }
+
+    #[test]
+    fn endless_files_are_refused() {
+        let endless = Path::new("/dev/zero");
+        if endless.exists() {
+            assert!(Files.text(endless).unwrap_err().message.contains("larger than 256 MiB"));
+        }
+    }
+}

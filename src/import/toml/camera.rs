@@ -34,16 +34,16 @@ impl Reader<'_> {
             lens: None,
         };
         // The place of a mistake is the key that was written, if any was.
-        let fail = |keys: [&str; 2], message: &str| match keys.iter().find_map(|key| view.get(key)) {
+        let fail = |keys: &[&str], message: &str| match keys.iter().find_map(|key| view.get(key)) {
             Some(item) => Err(item.error(message)),
             None => Err(view.error(message)),
         };
         // Differences are taken as the camera takes them, in 32 bits.
         let Some(forward) = (camera.target - camera.position).as_dvec3().try_normalize() else {
-            return fail(["target", "position"], "the camera looks at its own position");
+            return fail(&["target", "position"], "the camera looks at its own position");
         };
         if camera.up.as_dvec3().cross(forward).length() < MIN_SINE {
-            return fail(["up", "target"], "`up` is parallel to the view");
+            return fail(&["up", "target", "position"], "`up` is parallel to the view");
         }
         camera.lens = lens(&view, camera.position.as_dvec3(), forward)?;
         self.scene.camera = camera;

@@ -43,9 +43,10 @@ impl Data {
         match self {
             Self::Bool(_) => "a boolean".into(),
             Self::Integer(_) => "a whole number".into(),
-            Self::Float(_) => "a number".into(),
+            Self::Float(_) => "a decimal number".into(),
             Self::String(_) => "a string".into(),
             Self::Time => "a date or time".into(),
+            Self::List(items) if items.is_empty() => "an empty list".into(),
             Self::List(items) => format!("a list of {}", items.len()),
             Self::Table(_) => "a table".into(),
         }

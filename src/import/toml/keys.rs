@@ -2,8 +2,6 @@
 
 /// Keys of an object that has a `kind`.
 pub(super) struct Kinds {
-    /// What such an object is called.
-    pub noun: &'static str,
     /// Keys of every kind.
     pub common: &'static [&'static str],
     /// The kinds and the keys that each adds.
@@ -64,7 +62,6 @@ pub(super) const CAMERA: &[&str] = &[
 ];
 
 pub(super) const TEXTURE: Kinds = Kinds {
-    noun: "texture",
     common: &["kind"],
     kinds: &[(
         "image",
@@ -84,7 +81,6 @@ pub(super) const TEXTURE: Kinds = Kinds {
 };
 
 pub(super) const MATERIAL: Kinds = Kinds {
-    noun: "material",
     common: &["kind", "emission", "emission_scale", "two_sided"],
     kinds: &[
         ("unlit", &["color"]),
@@ -106,7 +102,6 @@ const DISK: &[&str] = &["center", "normal", "radius", "meridian"];
 const QUAD: &[&str] = &["origin", "center", "edge_u", "edge_v"];
 
 pub(super) const SHAPE: Kinds = Kinds {
-    noun: "shape",
     common: &["kind", "material", "transform"],
     kinds: &[("sphere", SPHERE), ("disk", DISK), ("quad", QUAD)],
 };
@@ -117,7 +112,6 @@ pub(super) const INSTANCE: &[&str] = &["mesh", "material", "transform"];
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];
 
 pub(super) const LIGHT: Kinds = Kinds {
-    noun: "light",
     common: &["kind"],
     kinds: &[
         ("point", &["position", "intensity"]),

@@ -122,9 +122,7 @@ impl Reader<'_> {
         }
         pair(item, |one| {
             if !one.is_number() {
-                return Err(one
-                    .mismatch("a number or two")
-                    .help("a texture can give `alpha`, the square of it"));
+                return Err(one.mismatch("a number or two").help("only `alpha` can come from a texture"));
             }
             one.f32(limits).map(|roughness| Value::Constant(roughness * roughness))
         })

@@ -8,7 +8,7 @@ use super::view::{Item, View};
 use crate::Result;
 use crate::scene::{Handle, Material, Mesh, MeshPart};
 use glam::Vec2;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Keys that only inline meshes have.
 const INLINE: [&str; 5] = ["positions", "triangles", "polygons", "normals", "uvs"];
@@ -44,9 +44,10 @@ impl Reader<'_> {
         // The names are checked before a file that may be large is read.
         let named = self.part_materials(view)?;
         let mut mesh = self.assets.mesh(&path).map_err(|error| self.sources.locate(file.node.spot, error))?;
+        let parts: BTreeSet<_> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
         for (name, (item, _)) in &named {
-            if !mesh.parts.iter().any(|part| part.name == *name) {
-                let parts = mesh.parts.iter().map(|part| part.name.as_str()).filter(|part| !part.is_empty());
+            if !parts.contains(name) {
+                let parts = parts.iter().copied().filter(|part| !part.is_empty());
                 let message = format!("no part of the mesh is named `{}`", shown(name));
                 return Err(item.error(message).help(suggest(name, parts, "named parts")));
             }
@@ -173,7 +174,7 @@ fn same_count(item: Item<'_>, found: usize, positions: usize) -> Result<()> {
     if found == positions {
         return Ok(());
     }
+    let name = item.name();
     Err(item
-        .error(format!("{} has {found} entries for {positions} positions", item.name()))
-        .help("give one a position"))
+        .error(format!("{name} must have one entry for each of the {positions} positions, found {found}")))
 }

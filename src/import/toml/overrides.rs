@@ -75,10 +75,13 @@ fn set(sources: &Sources, spot: Spot, document: &mut Table, words: &[String], no
         }
     } else if !NAMED.contains(&top) && !LISTS.contains(&top) {
         let word = words.first().map_or("", String::as_str);
+        if word == "include" {
+            return Err(sources.error(spot, "`include` cannot be set"));
+        }
         if TOP.contains(&word) {
             return fail(
                 format!("`{word}` as a whole cannot be set"),
-                format!("name a key in it, such as {word}.NAME"),
+                format!("name a key in it, such as {word}.KEY"),
             );
         }
         return fail(
@@ -110,13 +113,20 @@ fn set(sources: &Sources, spot: Spot, document: &mut Table, words: &[String], no
             let Some(object) = found else {
                 return fail(
                     format!("there is no {top} {}", shown(number)),
-                    format!("write {top}.1 to {top}.{count} in the order of the scene"),
+                    format!("the scene has {count}, counted from 1"),
                 );
             };
             (object, keys)
         }
         _ => return Ok(()),
     };
+    if keys.is_empty() {
+        let name = shown(&words.join("."));
+        return fail(
+            format!("`{name}` as a whole cannot be set"),
+            format!("name a key in it, such as {name}.KEY"),
+        );
+    }
     set_key(sources, spot, object, top, keys, node)
 }
 
@@ -129,11 +139,7 @@ fn set_key(
     keys: &[String],
     node: Node,
 ) -> Result<()> {
-    let Some((key, rest)) = keys.split_first() else {
-        return Err(sources
-            .error(spot, format!("`{name}` as a whole cannot be set"))
-            .help("name a key in it"));
-    };
+    let Some((key, rest)) = keys.split_first() else { return Ok(()) };
     let found = object.data.type_name();
     let Data::Table(table) = &mut object.data else {
         return Err(sources.error(spot, format!("there is no `{}` in {found}", shown(key))));

@@ -9,6 +9,9 @@ use crate::{Error, Result};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+/// Most warnings that are listed one by one: to find a line takes a walk through the file.
+const MAX_WARNINGS: usize = 100;
+
 /// A scene in the making.
 pub(super) struct Reader<'a> {
     pub sources: &'a Sources,
@@ -91,8 +94,12 @@ impl Reader<'_> {
         self.warnings.extend(self.materials.unused());
         self.warnings.extend(self.meshes.unused());
         self.warnings.sort();
+        let more = self.warnings.len().saturating_sub(MAX_WARNINGS);
+        if let Some((_, message)) = self.warnings.get_mut(MAX_WARNINGS).filter(|_| more > 1) {
+            *message = format!("{more} more warnings from here on");
+        }
         let warning = |(spot, message)| Warning { place: self.sources.place(spot), message };
-        (self.scene, self.warnings.into_iter().map(warning).collect())
+        (self.scene, self.warnings.into_iter().take(MAX_WARNINGS + 1).map(warning).collect())
     }
 }
 

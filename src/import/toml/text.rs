@@ -75,34 +75,33 @@ impl fmt::Display for Limits {
     }
 }
 
+/// The known name that was perhaps meant.
+pub(super) fn closest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    // Longer words are not worth the quadratic time.
+    const MAX_LENGTH: usize = 64;
+    let lower = word.to_lowercase();
+    let candidates = known.filter(|name| word.len() <= MAX_LENGTH && name.len() <= MAX_LENGTH);
+    let distances = candidates.filter_map(|name| {
+        let distance = strsim::damerau_levenshtein(&lower, &name.to_lowercase());
+        let longer = word.chars().count().max(name.chars().count());
+        // A third of the letters may be wrong, and one in short words.
+        (distance <= (longer / 3).max(1) && distance < longer).then_some((distance, name))
+    });
+    distances.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
+}
+
 /// The next step after an unknown name: the closest known one, else the list of them.
 pub(super) fn suggest<'a>(word: &str, known: impl Iterator<Item = &'a str>, what: &str) -> String {
     const MAX_LISTED: usize = 24;
-    let mut best: Option<(usize, &str)> = None;
-    let mut listed = Vec::new();
-    for name in known {
-        if listed.len() <= MAX_LISTED {
-            listed.push(name);
-        }
-        // Longer words are not worth the quadratic time.
-        if word.len() > 64 || name.len() > 64 {
-            continue;
-        }
-        let distance = strsim::damerau_levenshtein(&word.to_lowercase(), &name.to_lowercase());
-        let allowed = (word.chars().count().max(name.chars().count()) / 3).max(1);
-        if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
-            best = Some((distance, name));
-        }
-    }
-    if let Some((_, name)) = best {
+    let known: Vec<_> = known.collect();
+    if let Some(name) = closest(word, known.iter().copied()) {
         return format!("did you mean `{name}`?");
     }
-    if listed.is_empty() {
+    if known.is_empty() {
         return format!("there are no {what}");
     }
-    let more = if listed.len() > MAX_LISTED { ", …" } else { "" };
-    listed.truncate(MAX_LISTED);
-    let names: Vec<_> = listed.iter().map(|name| format!("`{}`", shown(name))).collect();
+    let more = if known.len() > MAX_LISTED { ", …" } else { "" };
+    let names: Vec<_> = known.iter().take(MAX_LISTED).map(|name| format!("`{}`", shown(name))).collect();
     format!("{what} are {}{more}", names.join(", "))
 }
 

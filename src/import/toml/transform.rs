@@ -35,7 +35,7 @@ fn step(item: Item<'_>) -> Result<DAffine3> {
         kinds.into_iter().filter_map(|kind| view.get(kind).map(|item| (kind, item))).collect();
     let &[(kind, value)] = given.as_slice() else {
         return Err(item
-            .error(format!("{} must have one of `translate`, `rotate`, `scale`, `matrix`", view.what))
+            .error(format!("{} must have exactly one of `translate`, `rotate`, `scale`, `matrix`", view.what))
             .help("write one step after the other: [{ scale = 2 }, { translate = [0, 1, 0] }]"));
     };
     if let Some(angle) = view.get("angle").filter(|_| kind != "rotate") {

@@ -2,7 +2,7 @@
 
 use super::document::{Data, Entry, Node, Sources, Spot, Table};
 use super::keys::Kinds;
-use super::text::{Limits, number, shown, suggest};
+use super::text::{Limits, closest, number, shown, suggest};
 use crate::{Error, Result};
 use glam::{Vec2, Vec3};
 use std::fmt;
@@ -54,7 +54,7 @@ impl<'a> View<'a> {
                 keys.kinds.iter().filter(|(_, list)| list.contains(&key)).map(|(name, _)| *name).collect();
             match others.as_slice() {
                 [] => suggest(key, known(), "its keys"),
-                _ => format!("only {} {} has it", others.join(" or "), keys.noun),
+                _ => format!("it is a key of {}", others.join(", ")),
             }
         };
         let what = format!("{kind} {}", any.what);
@@ -239,18 +239,18 @@ impl<'a> Item<'a> {
     /// One of some words.
     pub fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
         let words: Vec<_> = choices.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-        let rule = words.join(", ");
+        let rule = if words.len() > 1 { format!("one of {}", words.join(", ")) } else { words.concat() };
         let Data::String(text) = &self.node.data else {
-            let one = if choices.len() > 1 { "one of " } else { "" };
-            return Err(self.mismatch(&format!("{one}{rule}")));
+            return Err(self.mismatch(&rule));
         };
         match choices.iter().find(|(word, _)| word == text) {
             Some((_, value)) => Ok(*value),
             None => {
-                let help = suggest(text, choices.iter().map(|(word, _)| *word), "the choices");
-                Err(self
-                    .error(format!("{} is \"{}\", which is no choice", self.name(), shown(text)))
-                    .help(help))
+                let error = self.refuse(format!("\"{}\"", shown(text)), rule);
+                Err(match closest(text, choices.iter().map(|(word, _)| *word)) {
+                    Some(word) => error.help(format!("did you mean \"{word}\"?")),
+                    None => error,
+                })
             }
         }
     }

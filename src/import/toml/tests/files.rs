@@ -76,3 +76,12 @@ fn doubtful_things_are_warnings() {
     ];
     assert_eq!(warnings, expected);
 }
+
+#[test]
+fn many_warnings_are_cut_short() {
+    let text: String = (0..100_000).map(|i| format!("material.m{i}.kind = 'diffuse'\n")).collect();
+    let (scene, warnings) = read(&text).unwrap();
+    assert_eq!(scene.materials.len(), 100_000);
+    assert_eq!(warnings.len(), 101);
+    assert_eq!(warnings[100].to_string(), "scene.toml:101:10: 99900 more warnings from here on");
+}
