@@ -1,0 +1,97 @@
+//! `[film]` and `[render]`.
+
+use super::document::Node;
+use super::keys::{FILM, RENDER};
+use super::reader::Reader;
+use super::text::Limits;
+use super::view::View;
+use crate::Result;
+use crate::scene::{Film, Filter, FilterKind, Rect, Render, Sampler};
+
+/// Largest width and height in pixels.
+const MAX_SIZE: u32 = 16384;
+const MAX_SPP: u32 = 1 << 24;
+const MAX_STRATA: u32 = 4096;
+const MAX_DEPTH: u32 = 1000;
+/// Stops beyond which the factor leaves 32-bit floats.
+const MAX_EXPOSURE: f32 = 64.0;
+/// Pixels; wider filters only blur.
+const MAX_FILTER_RADIUS: f32 = 64.0;
+
+impl Reader<'_> {
+    pub fn film(&mut self, node: &Node) -> Result<()> {
+        let view = View::new(self.sources, node, "[film]".into(), FILM)?;
+        let mut film = Film::default();
+        if let Some(size) = view.get("size") {
+            [film.width, film.height] = size.whole_numbers(1, MAX_SIZE)?;
+        }
+        if let Some(item) = view.get("crop") {
+            let [x0, y0, x1, y1] = item.whole_numbers(0, MAX_SIZE)?;
+            let shown = format!("[{x0}, {y0}, {x1}, {y1}]");
+            if x0 >= x1 || y0 >= y1 {
+                return Err(item.refuse(shown, "[x0, y0, x1, y1] with x0 below x1 and y0 below y1"));
+            }
+            if x1 > film.width || y1 > film.height {
+                return Err(item.refuse(shown, format!("inside the {} × {} pixels", film.width, film.height)));
+            }
+            film.crop = Some(Rect { x0, y0, x1, y1 });
+        }
+        let kinds = [
+            ("box", FilterKind::Box),
+            ("tent", FilterKind::Tent),
+            ("gaussian", FilterKind::Gaussian),
+            ("blackman_harris", FilterKind::BlackmanHarris),
+        ];
+        let kind = view.choice_or("filter", film.filter.kind, &kinds)?;
+        let radius = match kind {
+            FilterKind::Box => 0.5,
+            FilterKind::Tent => 1.0,
+            FilterKind::Gaussian | FilterKind::BlackmanHarris => 1.5,
+        };
+        let radius = view.f32_or("filter_radius", radius, Limits::AboveUpTo(0.0, MAX_FILTER_RADIUS))?;
+        film.filter = Filter { kind, radius };
+        film.exposure = view.f32_or("exposure", film.exposure, Limits::From(-MAX_EXPOSURE, MAX_EXPOSURE))?;
+        if let Some(item) = view.get("png_bits") {
+            film.png_bits = item.u32(0, u32::MAX)?;
+            if film.png_bits != 8 && film.png_bits != 16 {
+                return Err(item.refuse(film.png_bits, "8 or 16"));
+            }
+        }
+        film.transparent = view.bool_or("transparent", film.transparent)?;
+        self.scene.film = film;
+        Ok(())
+    }
+
+    pub fn render(&mut self, node: &Node) -> Result<()> {
+        let view = View::new(self.sources, node, "[render]".into(), RENDER)?;
+        let default = Render::default();
+        let samplers = [
+            ("sobol", Sampler::Sobol),
+            ("stratified", Sampler::Stratified),
+            ("random", Sampler::Random),
+            ("regular", Sampler::Regular),
+            ("center", Sampler::Center),
+        ];
+        self.scene.render = Render {
+            spp: view.u32_or("spp", default.spp, 1, MAX_SPP)?,
+            seed: view.u32_or("seed", default.seed, 0, u32::MAX)?,
+            sampler: view.choice_or("sampler", default.sampler, &samplers)?,
+            strata: match view.get("strata") {
+                Some(item) => item.whole_numbers(1, MAX_STRATA)?,
+                None => default.strata,
+            },
+            max_depth: view.u32_or("max_depth", default.max_depth, 0, MAX_DEPTH)?,
+            diffuse_bounces: match view.get("diffuse_bounces") {
+                Some(item) => Some(item.u32(0, MAX_DEPTH)?),
+                None => default.diffuse_bounces,
+            },
+            russian_roulette: view.bool_or("russian_roulette", default.russian_roulette)?,
+            firefly_clamp: match view.get("firefly_clamp") {
+                Some(item) => Some(item.f32(Limits::Above(0.0))?),
+                None => default.firefly_clamp,
+            },
+            geometric_veto: view.bool_or("geometric_veto", default.geometric_veto)?,
+        };
+        Ok(())
+    }
+}

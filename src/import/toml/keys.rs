@@ -1,0 +1,146 @@
+//! Every key of the scene language, once. `scenes/README.md` explains each of them.
+
+/// Keys of an object that has a `kind`.
+pub(super) struct Kinds {
+    /// Keys of every kind.
+    pub common: &'static [&'static str],
+    /// The kinds and the keys that each adds.
+    pub kinds: &'static [(&'static str, &'static [&'static str])],
+}
+
+/// Keys and tables at the top of a file.
+pub(super) const TOP: &[&str] = &[
+    "include",
+    "film",
+    "render",
+    "camera",
+    "texture",
+    "material",
+    "mesh",
+    "shape",
+    "instance",
+    "light",
+    "environment",
+];
+
+/// Tables that exist once.
+pub(super) const SETTINGS: &[&str] = &["film", "render", "camera", "environment"];
+/// Tables of named objects.
+pub(super) const NAMED: &[&str] = &["texture", "material", "mesh"];
+/// Lists of tables.
+pub(super) const LISTS: &[&str] = &["shape", "instance", "light"];
+
+pub(super) const FILM: &[&str] =
+    &["size", "crop", "filter", "filter_radius", "exposure", "png_bits", "transparent"];
+
+pub(super) const RENDER: &[&str] = &[
+    "spp",
+    "seed",
+    "sampler",
+    "strata",
+    "max_depth",
+    "diffuse_bounces",
+    "russian_roulette",
+    "firefly_clamp",
+    "geometric_veto",
+];
+
+pub(super) const CAMERA: &[&str] = &[
+    "position",
+    "target",
+    "up",
+    "fov",
+    "fov_axis",
+    "mirrored",
+    "lens_radius",
+    "f_number",
+    "sensor_height",
+    "focus_distance",
+    "focus_point",
+    "blades",
+    "blade_rotation",
+];
+
+pub(super) const TEXTURE: Kinds = Kinds {
+    common: &["kind"],
+    kinds: &[(
+        "image",
+        &[
+            "file",
+            "filter",
+            "wrap",
+            "uv_scale",
+            "uv_rotate",
+            "uv_offset",
+            "color_space",
+            "channel",
+            "scale",
+            "invert",
+        ],
+    )],
+};
+
+pub(super) const MATERIAL: Kinds = Kinds {
+    common: &["kind", "emission", "emission_scale", "two_sided"],
+    kinds: &[
+        ("unlit", &["color"]),
+        ("diffuse", &["color"]),
+        ("phong", &["diffuse", "specular", "exponent"]),
+        ("conductor", &["reflectance", "fresnel", "eta", "k", "roughness", "alpha"]),
+        ("dielectric", &["ior", "roughness", "alpha", "absorption", "thin"]),
+    ],
+};
+
+/// The key of a table that stands for the value of a texture.
+pub(super) const TEXTURE_VALUE: &[&str] = &["texture"];
+
+pub(super) const MESH: &[&str] =
+    &["file", "materials", "positions", "triangles", "polygons", "normals", "uvs", "smooth"];
+
+const SPHERE: &[&str] = &["center", "radius", "pole", "meridian"];
+const DISK: &[&str] = &["center", "normal", "radius", "meridian"];
+const QUAD: &[&str] = &["origin", "center", "edge_u", "edge_v"];
+
+pub(super) const SHAPE: Kinds = Kinds {
+    common: &["kind", "material", "transform"],
+    kinds: &[("sphere", SPHERE), ("disk", DISK), ("quad", QUAD)],
+};
+
+pub(super) const INSTANCE: &[&str] = &["mesh", "material", "transform"];
+
+/// Steps of a `transform`.
+pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];
+
+pub(super) const LIGHT: Kinds = Kinds {
+    common: &["kind"],
+    kinds: &[
+        ("point", &["position", "intensity"]),
+        ("spot", &["position", "target", "direction", "intensity", "cone_angle", "falloff_angle"]),
+        ("distant", &["direction", "from", "irradiance"]),
+        ("sphere", &["center", "radius", "pole", "meridian", "radiance", "two_sided", "transform"]),
+        ("disk", &["center", "normal", "radius", "meridian", "radiance", "two_sided", "transform"]),
+        ("quad", &["origin", "center", "edge_u", "edge_v", "radiance", "two_sided", "transform"]),
+    ],
+};
+
+pub(super) const ENVIRONMENT: &[&str] = &["color", "texture", "scale", "rotate", "transform"];
+
+/// Keys of which an object has one at most. A file that includes another, and `--set`, replace one by the other.
+pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
+    ("camera", &[&["lens_radius", "f_number"], &["focus_distance", "focus_point"]]),
+    ("environment", &[&["color", "texture"], &["rotate", "transform"]]),
+    ("material", &[&["roughness", "alpha"], &["fresnel", "eta"], &["fresnel", "k"], &["reflectance", "eta"]]),
+    ("shape", &[&["origin", "center"]]),
+    ("light", &[&["target", "direction"], &["direction", "from"], &["origin", "center"]]),
+];
+
+/// The rivals of a key of a table.
+pub(super) fn rivals(table: &str, key: &str) -> Vec<&'static str> {
+    RIVALS
+        .iter()
+        .filter(|(name, _)| *name == table)
+        .flat_map(|(_, groups)| groups.iter())
+        .filter(|group| group.contains(&key))
+        .flat_map(|group| group.iter().copied().filter(|other| *other != key))
+        .collect()
+}

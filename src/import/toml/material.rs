@@ -1,0 +1,172 @@
+//! `[material.NAME]`.
+
+use super::document::Entry;
+use super::keys::MATERIAL;
+use super::reader::Reader;
+use super::text::{Limits, number, shown};
+use super::view::{Item, View};
+use crate::Result;
+use crate::scene::{Conductor, Dielectric, Emission, Fresnel, Material, Surface, Texture, Value};
+use glam::Vec3;
+
+/// What a reflectance may be.
+const REFLECTANCE: Limits = Limits::From(0.0, 1.0);
+/// Larger exponents cannot be told from a mirror, and 32-bit powers of them fail.
+const MAX_EXPONENT: f32 = 1e6;
+/// Real materials reach about 8; the range leaves room and keeps squares harmless.
+const MAX_INDEX: f32 = 100.0;
+
+impl Reader<'_> {
+    pub fn material(&mut self, entry: &Entry) -> Result<()> {
+        let name = shown(&entry.key);
+        let (view, kind) = View::of_kind(self.sources, &entry.node, format!("material `{name}`"), &MATERIAL)?;
+        let surface = match kind {
+            "unlit" => Surface::Unlit { color: self.color(view.need("color")?, Limits::AtLeast(0.0))? },
+            "phong" => {
+                let diffuse = self.color_or(&view, "diffuse", 0.5, REFLECTANCE)?;
+                let specular = self.color_or(&view, "specular", 0.0, REFLECTANCE)?;
+                let exponent = self.number_or(&view, "exponent", 50.0, Limits::From(0.0, MAX_EXPONENT))?;
+                if let (Value::Constant(kd), Value::Constant(ks)) = (diffuse, specular) {
+                    let sum = (kd + ks).max_element();
+                    if sum > 1.0 {
+                        let sum = number(f64::from(sum));
+                        let what = &view.what;
+                        self.warn(
+                            entry.spot,
+                            format!("`diffuse` + `specular` reaches {sum} in {what}; it is scaled down to 1"),
+                        );
+                    }
+                }
+                Surface::Phong { diffuse, specular, exponent }
+            }
+            "conductor" => Surface::Conductor(self.conductor(&view)?),
+            "dielectric" => Surface::Dielectric(self.dielectric(&view)?),
+            _ => Surface::Diffuse { color: self.color_or(&view, "color", 0.5, REFLECTANCE)? },
+        };
+        let emission = self.emission(&view, &entry.key)?;
+        let handle = self.scene.materials.add(&entry.key, Material { surface, emission });
+        self.materials.add(&entry.key, entry.spot, handle);
+        Ok(())
+    }
+
+    fn color_or(&self, view: &View<'_>, key: &str, default: f32, limits: Limits) -> Result<Value<Vec3>> {
+        let default = Value::Constant(Vec3::splat(default));
+        view.get(key).map_or(Ok(default), |item| self.color(item, limits))
+    }
+
+    fn number_or(&self, view: &View<'_>, key: &str, default: f32, limits: Limits) -> Result<Value<f32>> {
+        view.get(key).map_or(Ok(Value::Constant(default)), |item| self.number(item, limits))
+    }
+
+    fn conductor(&self, view: &View<'_>) -> Result<Conductor> {
+        let [alpha_u, alpha_v] = self.alpha(view)?;
+        if view.get("eta").is_none() && view.get("k").is_none() {
+            let models = [("exact", Fresnel::Exact), ("schlick", Fresnel::Schlick), ("none", Fresnel::None)];
+            let reflectance = self.color_or(view, "reflectance", 0.9, REFLECTANCE)?;
+            let fresnel = view.choice_or("fresnel", Fresnel::Exact, &models)?;
+            return Ok(Conductor { reflectance, fresnel, alpha_u, alpha_v });
+        }
+        for key in ["reflectance", "fresnel"] {
+            if let Some(item) = view.get(key) {
+                return Err(item
+                    .error(format!("`{key}` has no meaning beside `eta` and `k`"))
+                    .help("keep one or the other"));
+            }
+        }
+        let eta = super::value::color(view.need("eta")?, Limits::AboveUpTo(0.0, MAX_INDEX))?;
+        let k = super::value::color(view.need("k")?, Limits::From(0.0, MAX_INDEX))?;
+        // What the equations give at normal incidence, for those who want a single colour.
+        let reflectance = ((eta - 1.0) * (eta - 1.0) + k * k) / ((eta + 1.0) * (eta + 1.0) + k * k);
+        let fresnel = Fresnel::Index { eta, k };
+        Ok(Conductor { reflectance: Value::Constant(reflectance), fresnel, alpha_u, alpha_v })
+    }
+
+    fn dielectric(&self, view: &View<'_>) -> Result<Dielectric> {
+        let ior = view.f32_or("ior", 1.5, Limits::AboveUpTo(0.0, MAX_INDEX))?;
+        let [alpha_u, alpha_v] = self.alpha(view)?;
+        let thin = view.bool_or("thin", false)?;
+        let absorption = match view.get("absorption") {
+            Some(item) if thin => {
+                return Err(item.error("`absorption` has no meaning for a thin sheet").help("remove it"));
+            }
+            Some(item) => super::value::color(item, Limits::AtLeast(0.0))?,
+            None => Vec3::ZERO,
+        };
+        let rough = view
+            .get("roughness")
+            .or(view.get("alpha"))
+            .filter(|_| [alpha_u, alpha_v].iter().any(|alpha| *alpha != Value::Constant(0.0)));
+        if let Some(item) = rough {
+            if thin {
+                return Err(item
+                    .error("a thin sheet must be smooth")
+                    .help(format!("remove {}", item.name())));
+            }
+            if ior == 1.0 {
+                return Err(item
+                    .error("a rough surface needs an `ior` other than 1")
+                    .help(format!("change `ior` or remove {}", item.name())));
+            }
+        }
+        Ok(Dielectric { ior, alpha_u, alpha_v, absorption, thin })
+    }
+
+    /// GGX widths from `roughness` (squared) or `alpha` (as it is).
+    fn alpha(&self, view: &View<'_>) -> Result<[Value<f32>; 2]> {
+        let Some(item) = view.either("roughness", "alpha")? else {
+            return Ok([Value::Constant(0.0); 2]);
+        };
+        let limits = Limits::From(0.0, 1.0);
+        if view.get("alpha").is_some() {
+            return pair(item, |one| self.number(one, limits));
+        }
+        pair(item, |one| {
+            if !one.is_number() {
+                return Err(one.mismatch("a number or two").help("only `alpha` can come from a texture"));
+            }
+            one.f32(limits).map(|roughness| Value::Constant(roughness * roughness))
+        })
+    }
+
+    fn emission(&mut self, view: &View<'_>, name: &str) -> Result<Option<Emission>> {
+        let Some(item) = view.get("emission") else {
+            return match ["emission_scale", "two_sided"].iter().find_map(|key| view.get(key)) {
+                Some(item) => {
+                    Err(item.error(format!("{} needs `emission`", item.name())).help("add `emission`"))
+                }
+                None => Ok(None),
+            };
+        };
+        let scale = view.f32_or("emission_scale", 1.0, Limits::AtLeast(0.0))?;
+        let two_sided = view.bool_or("two_sided", false)?;
+        let radiance = match self.color(item, Limits::AtLeast(0.0))? {
+            Value::Constant(color) => {
+                let scaled = color * scale;
+                if !scaled.is_finite() {
+                    return Err(item.error("`emission` times `emission_scale` is too large"));
+                }
+                Value::Constant(scaled)
+            }
+            Value::Texture(texture) if scale == 1.0 => Value::Texture(texture),
+            Value::Texture(texture) => {
+                let Texture::Image(image) = &self.scene.textures[texture];
+                let mut image = image.clone();
+                image.scale *= scale;
+                if !image.scale.is_finite() {
+                    return Err(item.error("the `scale` of the texture times `emission_scale` is too large"));
+                }
+                Value::Texture(self.scene.textures.add(format!("emission of {name}"), Texture::Image(image)))
+            }
+        };
+        Ok(Some(Emission { radiance, two_sided }))
+    }
+}
+
+/// One value for both directions, or a list of two.
+fn pair<T: Copy>(item: Item<'_>, read: impl Fn(Item<'_>) -> Result<T>) -> Result<[T; 2]> {
+    if !item.is_list() {
+        return read(item).map(|both| [both; 2]);
+    }
+    let values: Vec<_> = item.list("a list of two")?.map(read).collect::<Result<_>>()?;
+    <[T; 2]>::try_from(values).map_err(|_| item.mismatch("one value or two"))
+}

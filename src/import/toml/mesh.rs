@@ -1,0 +1,180 @@
+//! `[mesh.NAME]`.
+
+use super::document::{Data, Entry};
+use super::keys::MESH;
+use super::reader::Reader;
+use super::text::{Limits, shown, suggest};
+use super::view::{Item, View};
+use crate::Result;
+use crate::scene::{Handle, Material, Mesh, MeshPart};
+use glam::Vec2;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Keys that only inline meshes have.
+const INLINE: [&str; 5] = ["positions", "triangles", "polygons", "normals", "uvs"];
+
+impl Reader<'_> {
+    pub fn mesh(&mut self, entry: &Entry) -> Result<()> {
+        let what = format!("mesh `{}`", shown(&entry.key));
+        let view = View::new(self.sources, &entry.node, what, MESH)?;
+        let smooth = view.bool_or("smooth", true)?;
+        let mut mesh = match view.either("file", "positions")? {
+            Some(file) if view.get("file").is_some() => {
+                if let Some(item) = INLINE.iter().find_map(|key| view.get(key)) {
+                    return Err(item.error(format!("{} has no meaning beside `file`", item.name())));
+                }
+                self.file_mesh(&view, file)?
+            }
+            _ => inline_mesh(&view)?,
+        };
+        if mesh.triangles.is_empty() {
+            return Err(view.error(format!("{} has no triangles", view.what)));
+        }
+        if !smooth {
+            mesh.normals = Vec::new();
+        }
+        let handle = self.scene.meshes.add(&entry.key, mesh);
+        self.meshes.add(&entry.key, entry.spot, handle);
+        Ok(())
+    }
+
+    fn file_mesh(&mut self, view: &View<'_>, file: Item<'_>) -> Result<Mesh> {
+        let path = file.path()?;
+        self.need_file(file.node.spot, &path)?;
+        // The names are checked before a file that may be large is read.
+        let named = self.part_materials(view)?;
+        let mut mesh = self.assets.mesh(&path).map_err(|error| self.sources.locate(file.node.spot, error))?;
+        let parts: BTreeSet<_> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
+        for (name, (item, _)) in &named {
+            if !parts.contains(name) {
+                let parts = parts.iter().copied().filter(|part| !part.is_empty());
+                let message = format!("no part of the mesh is named `{}`", shown(name));
+                return Err(item.error(message).help(suggest(name, parts, "named parts")));
+            }
+        }
+        for part in &mut mesh.parts {
+            part.material = match named.get(part.name.as_str()) {
+                Some((_, material)) => Some(*material),
+                None if part.name.is_empty() => None,
+                None => self.materials.get(&part.name),
+            };
+        }
+        Ok(mesh)
+    }
+
+    /// `materials`: names of parts and of the materials that they get.
+    fn part_materials<'a>(&self, view: &View<'a>) -> Result<BTreeMap<&'a str, (Item<'a>, Handle<Material>)>> {
+        let Some(item) = view.get("materials") else {
+            return Ok(BTreeMap::new());
+        };
+        let Data::Table(table) = &item.node.data else {
+            return Err(item.mismatch("a table { \"name in the file\" = \"material\" }"));
+        };
+        let pairs = table.entries.iter().map(|entry| {
+            let item = Item::of_entry(view.sources, entry);
+            Ok((entry.key.as_str(), (item, self.materials.find(item)?)))
+        });
+        pairs.collect()
+    }
+}
+
+fn inline_mesh(view: &View<'_>) -> Result<Mesh> {
+    let Some(positions) = view.get("positions") else {
+        return Err(view
+            .error(format!("{} has neither `file` nor `positions`", view.what))
+            .help("add one of them"));
+    };
+    if let Some(item) = view.get("materials") {
+        return Err(item
+            .error("`materials` needs a `file` with named parts")
+            .help("give the material to the instance"));
+    }
+    let points = positions.list("a list of points [x, y, z]")?;
+    let mut mesh = Mesh {
+        positions: points.map(|point| point.vec3(Limits::Finite)).collect::<Result<_>>()?,
+        ..Mesh::default()
+    };
+    let count = mesh.positions.len();
+    if u32::try_from(count).is_err() {
+        return Err(positions.error("a mesh holds at most 2³² − 1 vertices"));
+    }
+    if let Some(item) = view.get("normals") {
+        let normals = item.list("a list of normals [x, y, z]")?;
+        same_count(item, normals.len(), count)?;
+        mesh.normals = normals.map(|normal| normal.direction()).collect::<Result<_>>()?;
+    }
+    if let Some(item) = view.get("uvs") {
+        let uvs = item.list("a list of texture coordinates [u, v]")?;
+        same_count(item, uvs.len(), count)?;
+        mesh.uvs = uvs.map(|uv| uv.vec2(Limits::Finite)).collect::<Result<Vec<Vec2>>>()?;
+    }
+    if view.get("triangles").is_none() && view.get("polygons").is_none() {
+        return Err(view
+            .error(format!("{} has neither `triangles` nor `polygons`", view.what))
+            .help("add one of them"));
+    }
+    if let Some(item) = view.get("triangles") {
+        for triangle in item.list("a list of triangles [a, b, c]")? {
+            let expected = "a list of 3 whole numbers";
+            let items = triangle.list(expected)?;
+            if items.len() != 3 {
+                return Err(triangle.mismatch(expected));
+            }
+            let mut corners = [0; 3];
+            for (corner, item) in corners.iter_mut().zip(items) {
+                *corner = index(item, count)?;
+            }
+            mesh.triangles.push(corners);
+        }
+    }
+    if let Some(item) = view.get("polygons") {
+        for polygon in item.list("a list of polygons [a, b, c, …]")? {
+            fan(polygon, count, &mut mesh.triangles)?;
+        }
+    }
+    let Ok(end) = u32::try_from(mesh.triangles.len()) else {
+        return Err(view.error("a mesh holds at most 2³² − 1 triangles"));
+    };
+    mesh.parts.push(MeshPart { name: String::new(), triangles: 0..end, material: None });
+    Ok(mesh)
+}
+
+/// Cuts a convex polygon into triangles that share its first corner.
+fn fan(polygon: Item<'_>, count: usize, triangles: &mut Vec<[u32; 3]>) -> Result<()> {
+    let expected = "a list of 3 or more whole numbers";
+    let mut corners = polygon.list(expected)?.map(|corner| index(corner, count));
+    let (Some(first), Some(second)) = (corners.next(), corners.next()) else {
+        return Err(polygon.mismatch(expected));
+    };
+    if corners.len() == 0 {
+        return Err(polygon.mismatch(expected));
+    }
+    let (first, mut previous) = (first?, second?);
+    for corner in corners {
+        let corner = corner?;
+        triangles.push([first, previous, corner]);
+        previous = corner;
+    }
+    Ok(())
+}
+
+/// The index of one of `count` vertices.
+fn index(item: Item<'_>, count: usize) -> Result<u32> {
+    let value = match item.node.data {
+        Data::Integer(value) => value,
+        _ => return Err(item.mismatch("a whole number")),
+    };
+    match u32::try_from(value) {
+        Ok(index) if (index as usize) < count => Ok(index),
+        _ => Err(item.refuse(value, format!("the index of one of the {count} positions, from 0"))),
+    }
+}
+
+fn same_count(item: Item<'_>, found: usize, positions: usize) -> Result<()> {
+    if found == positions {
+        return Ok(());
+    }
+    let name = item.name();
+    Err(item
+        .error(format!("{name} must have one entry for each of the {positions} positions, found {found}")))
+}

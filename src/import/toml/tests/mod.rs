@@ -1,0 +1,283 @@
+//! The reader as a whole, on files in memory. Here: defaults, and a scene that has every key.
+
+mod damage;
+mod files;
+mod manual;
+
+use super::{Assets, Warning, read_scene_with};
+use crate::scene::*;
+use crate::{Error, Result};
+use glam::{Affine3A, Mat3, Vec2, Vec3};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Files in memory. Pictures end in `.png` (8 bits) or `.exr` (floats), meshes in `.obj`.
+#[derive(Default)]
+struct Memory {
+    texts: BTreeMap<String, String>,
+    loaded: Vec<String>,
+}
+
+impl Memory {
+    fn new(texts: &[(&str, &str)]) -> Self {
+        let texts = texts.iter().map(|(name, text)| (name.to_string(), text.to_string())).collect();
+        Self { texts, loaded: Vec::new() }
+    }
+}
+
+impl Assets for Memory {
+    fn image(&mut self, path: &Path) -> Result<Image> {
+        self.loaded.push(path.display().to_string());
+        let texels = match path.extension().and_then(|ext| ext.to_str()) {
+            Some("png") => Texels::Rgba8(vec![[255; 4]]),
+            Some("exr") => Texels::RgbaF32(vec![[1.0; 4]]),
+            _ => return Err(Error::scene("not a picture")),
+        };
+        Ok(Image { width: 1, height: 1, texels })
+    }
+
+    fn mesh(&mut self, path: &Path) -> Result<Mesh> {
+        self.loaded.push(path.display().to_string());
+        let part = |name: &str, at| MeshPart { name: name.into(), triangles: at..at + 1, material: None };
+        Ok(Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            normals: vec![Vec3::Z; 3],
+            uvs: Vec::new(),
+            triangles: vec![[0, 1, 2]; 2],
+            parts: vec![part("steel", 0), part("paint", 1)],
+        })
+    }
+
+    fn exists(&mut self, path: &Path) -> bool {
+        !path.display().to_string().contains("missing")
+    }
+
+    fn text(&mut self, path: &Path) -> Result<String> {
+        self.texts.get(&path.display().to_string()).cloned().ok_or_else(|| Error::scene("no such text"))
+    }
+}
+
+fn read(text: &str) -> Result<(Scene, Vec<Warning>)> {
+    read_set(text, &[])
+}
+
+fn read_set(text: &str, set: &[(&str, &str)]) -> Result<(Scene, Vec<Warning>)> {
+    let set: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    read_scene_with(Path::new("scene.toml"), &set, &mut Memory::new(&[("scene.toml", text)]))
+}
+
+/// Uses every key of every table.
+const ALL: &str = include_str!("all_keys.toml");
+
+fn all() -> Scene {
+    let (scene, warnings) = read(ALL).unwrap_or_else(|error| panic!("{error}"));
+    assert!(warnings.is_empty(), "{}", warnings[0]);
+    scene
+}
+
+#[test]
+fn nothing_gives_the_defaults() {
+    for text in ["", "[film]\n[render]\n[camera]\n"] {
+        let (scene, warnings) = read(text).unwrap();
+        assert_eq!(scene.film, Film::default());
+        assert_eq!(scene.render, Render::default());
+        assert_eq!(scene.camera, Camera::default());
+        assert!(scene.shapes.is_empty() && scene.environment.is_none() && warnings.is_empty());
+    }
+}
+
+#[test]
+fn film_and_render_take_every_key() {
+    let scene = all();
+    let film = Film {
+        width: 320,
+        height: 200,
+        crop: Some(Rect { x0: 10, y0: 20, x1: 300, y1: 200 }),
+        filter: Filter { kind: FilterKind::Gaussian, radius: 2.0 },
+        exposure: -1.5,
+        png_bits: 16,
+        transparent: true,
+    };
+    assert_eq!(scene.film, film);
+    let render = Render {
+        spp: 100,
+        seed: 7,
+        sampler: Sampler::Stratified,
+        strata: [10, 10],
+        max_depth: 5,
+        diffuse_bounces: Some(0),
+        russian_roulette: false,
+        firefly_clamp: Some(20.0),
+        geometric_veto: true,
+    };
+    assert_eq!(scene.render, render);
+}
+
+#[test]
+fn camera_takes_every_key() {
+    let camera = all().camera;
+    assert_eq!((camera.position, camera.target), (Vec3::new(0.0, 1.0, 4.0), Vec3::Y));
+    assert_eq!((camera.fov, camera.fov_axis, camera.mirrored), (50.0, FovAxis::Smaller, true));
+    let aperture = Aperture::FNumber { number: 2.8, sensor_height: 0.036 };
+    assert_eq!(camera.lens, Some(Lens { aperture, focus_distance: 3.0, blades: 6, blade_rotation: 15.0 }));
+    let (scene, _) = read("[camera]\nlens_radius = 0.1\nfocus_point = [9, 9, 2]").unwrap();
+    let lens = scene.camera.lens.unwrap();
+    assert_eq!((lens.aperture, lens.focus_distance), (Aperture::Radius(0.1), 3.0));
+    assert_eq!(read("[camera]\nlens_radius = 0\nfocus_distance = 1").unwrap().0.camera.lens, None);
+}
+
+#[test]
+fn filters_have_radii_of_their_own() {
+    let radius = |name: &str| read(&format!("[film]\nfilter = \"{name}\"")).unwrap().0.film.filter.radius;
+    assert_eq!(["box", "tent", "gaussian", "blackman_harris"].map(radius), [0.5, 1.0, 1.5, 1.5]);
+}
+
+#[test]
+fn textures_take_every_key() {
+    let scene = all();
+    let textures: BTreeMap<_, _> = scene.textures.iter().map(|(_, name, texture)| (name, texture)).collect();
+    let Texture::Image(wood) = textures["wood"];
+    assert_eq!(wood.filter, TexelFilter::Nearest);
+    assert_eq!(wood.wrap, [Wrap::Mirror, Wrap::Black]);
+    assert_eq!(
+        wood.uv,
+        UvTransform { scale: Vec2::new(2.0, 3.0), rotate: 30.0, offset: Vec2::new(0.5, 0.0) }
+    );
+    assert_eq!((wood.color_space, wood.channel), (ColorSpace::Linear, Channel::G));
+    assert_eq!((wood.scale, wood.invert), (0.5, true));
+    let Texture::Image(plain) = textures["plain"];
+    assert_eq!(
+        (plain.color_space, plain.wrap, plain.filter),
+        (ColorSpace::Srgb, [Wrap::Repeat; 2], TexelFilter::Bilinear)
+    );
+    let Texture::Image(sky) = textures["sky"];
+    assert_eq!(sky.color_space, ColorSpace::Linear);
+    assert_eq!(scene.images.len(), 2, "wood and plain name the same file");
+    let Texture::Image(glow) = textures["emission of screen"];
+    assert_eq!((glow.image, glow.scale), (plain.image, 4.0));
+}
+
+#[test]
+fn materials_take_every_key() {
+    let scene = all();
+    let texture = |name: &str| scene.textures.iter().find(|(_, other, _)| *other == name).unwrap().0;
+    let material = |name: &str| scene.materials.iter().find(|found| found.1 == name).unwrap().2;
+    let grey = |value| Value::Constant(Vec3::splat(value));
+    assert_eq!(material("screen").surface, Surface::Unlit { color: grey(0.0) });
+    let emission = material("screen").emission.as_ref().unwrap();
+    assert_eq!(emission.radiance, Value::Texture(texture("emission of screen")));
+    assert!(emission.two_sided);
+    assert_eq!(material("chalk").surface, Surface::Diffuse { color: grey(0.5) });
+    assert_eq!(
+        material("chalk").emission.as_ref().unwrap().radiance,
+        Value::Constant(Vec3::new(2.0, 4.0, 6.0))
+    );
+    assert_eq!(
+        material("paint").surface,
+        Surface::Phong {
+            diffuse: Value::Texture(texture("plain")),
+            specular: grey(0.25),
+            exponent: Value::Texture(texture("wood")),
+        }
+    );
+    let Surface::Conductor(steel) = &material("steel").surface else { panic!("steel") };
+    assert_eq!(
+        (steel.reflectance, steel.fresnel),
+        (Value::Constant(Vec3::new(0.75, 0.5, 0.25)), Fresnel::Schlick)
+    );
+    assert_eq!((steel.alpha_u, steel.alpha_v), (Value::Constant(0.25), Value::Constant(0.25)));
+    let Surface::Conductor(gold) = &material("gold").surface else { panic!("gold") };
+    assert_eq!(gold.fresnel, Fresnel::Index { eta: Vec3::ONE, k: Vec3::splat(2.0) });
+    assert_eq!(gold.reflectance, grey(0.5));
+    assert_eq!((gold.alpha_u, gold.alpha_v), (Value::Texture(texture("wood")), Value::Constant(0.125)));
+    let Surface::Dielectric(glass) = &material("glass").surface else { panic!("glass") };
+    assert_eq!((glass.ior, glass.absorption, glass.thin), (1.25, Vec3::new(0.0, 0.5, 1.0), false));
+    assert_eq!((glass.alpha_u, glass.alpha_v), (Value::Constant(0.25), Value::Constant(0.0625)));
+    let Surface::Dielectric(pane) = &material("pane").surface else { panic!("pane") };
+    assert!(pane.thin && pane.ior == 1.5 && pane.alpha_u == Value::Constant(0.0));
+}
+
+#[test]
+fn shapes_take_every_key() {
+    let scene = all();
+    let kinds: Vec<_> = scene.shapes.iter().map(|shape| shape.kind).collect();
+    let ShapeKind::Sphere { center, radius, pole, meridian } = kinds[0] else { panic!("sphere") };
+    assert_eq!((center, radius, pole), (Vec3::X, 0.5, Vec3::Z));
+    assert!(meridian.abs_diff_eq(Vec3::Y, 1e-6), "made orthogonal: {meridian}");
+    let ShapeKind::Disk { normal, meridian, .. } = kinds[1] else { panic!("disk") };
+    assert_eq!((normal, meridian), (Vec3::X, Vec3::Y));
+    let edges = (Vec3::X * 2.0, Vec3::Z);
+    let ShapeKind::Quad { origin, edge_u, edge_v } = kinds[2] else { panic!("quad") };
+    assert_eq!((origin, edge_u, edge_v), (Vec3::ONE, edges.0, edges.1));
+    let ShapeKind::Quad { origin, .. } = kinds[3] else { panic!("quad") };
+    assert_eq!(origin, Vec3::new(-1.0, 0.0, -0.5));
+}
+
+#[test]
+fn the_first_step_of_a_transform_is_applied_first() {
+    let scene = all();
+    let map = scene.shapes[0].world_from_object;
+    // Scale by 2, quarter turn about +y, move, mirror in x.
+    let expected = |p: Vec3| Vec3::new(-(2.0 * p.z + 1.0), 2.0 * p.y + 2.0, -2.0 * p.x + 3.0);
+    for point in [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 2.0, 3.0)] {
+        assert!(map.transform_point3(point).abs_diff_eq(expected(point), 1e-5));
+    }
+    assert!(map.matrix3.determinant() < 0.0);
+    assert_eq!(scene.shapes[3].world_from_object, Affine3A::IDENTITY);
+}
+
+#[test]
+fn meshes_and_instances_take_every_key() {
+    let scene = all();
+    let mesh = |name: &str| scene.meshes.iter().find(|found| found.1 == name).unwrap().2;
+    let material =
+        |name: &str| scene.materials.iter().find(|(_, other, _)| *other == name).map(|found| found.0);
+    let inline = mesh("inline");
+    assert_eq!(inline.triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 3]]);
+    assert_eq!((inline.normals.len(), inline.uvs[2]), (4, Vec2::ONE));
+    assert_eq!(inline.normals[0], Vec3::Z, "normalised");
+    assert_eq!(inline.parts, [MeshPart { name: String::new(), triangles: 0..3, material: None }]);
+    let car = mesh("car");
+    assert!(car.normals.is_empty());
+    assert_eq!(car.parts[0].material, material("glass"), "by `materials`");
+    assert_eq!(car.parts[1].material, material("paint"), "by its own name");
+    assert_eq!(scene.instances[0].material, material("chalk").unwrap());
+    assert_eq!(scene.instances[1].material, material("glass").unwrap(), "any will do");
+}
+
+#[test]
+fn lights_take_every_key() {
+    let scene = all();
+    assert_eq!(scene.lights[0], Light::Point { position: Vec3::Y, intensity: Vec3::splat(3.0) });
+    let spot = |direction, cone_angle, falloff_angle| Light::Spot {
+        position: Vec3::Y,
+        direction,
+        intensity: Vec3::ONE,
+        cone_angle,
+        falloff_angle,
+    };
+    assert_eq!(scene.lights[1], spot(-Vec3::Y, 20.0, 3.0));
+    assert_eq!(scene.lights[2], spot(Vec3::X, 30.0, 5.0));
+    let distant = Light::Distant { direction: -Vec3::Y, irradiance: Vec3::ONE };
+    assert_eq!(scene.lights[3..], [distant.clone(), distant]);
+    let areas = &scene.shapes[4..];
+    assert_eq!(areas.len(), 3);
+    for area in areas {
+        let material = &scene.materials[area.material];
+        assert_eq!(material.surface, Surface::Diffuse { color: Value::Constant(Vec3::ZERO) });
+        assert_eq!(material.emission.as_ref().unwrap().radiance, Value::Constant(Vec3::splat(9.0)));
+        assert!(material.emission.as_ref().unwrap().two_sided);
+    }
+    assert_eq!(areas[0].name, "light 6");
+    let environment = scene.environment.unwrap();
+    assert_eq!((environment.radiance.texture().is_some(), environment.scale), (true, 2.0));
+    // Seen from above, counter-clockwise takes −z (ahead) to −x (left).
+    assert!((environment.world_from_environment * -Vec3::Z).abs_diff_eq(-Vec3::X, 1e-6));
+    let (scene, _) =
+        read("[environment]\ncolor = 2\ntransform = [{ rotate = [0, 2, 0], angle = 90 }]").unwrap();
+    let same = scene.environment.unwrap();
+    assert_eq!(same.radiance, Value::Constant(Vec3::splat(2.0)));
+    assert!(
+        same.world_from_environment.abs_diff_eq(Mat3::from_rotation_y(std::f32::consts::FRAC_PI_2), 1e-6)
+    );
+}

@@ -1,0 +1,178 @@
+//! Messages of scene errors, as text. Here: TOML itself, `[film]`, `[render]` and `[camera]`.
+
+mod files;
+mod objects;
+
+use dapple::import::{Assets, read_scene_with};
+use dapple::scene::{Image, Mesh, MeshPart, Texels};
+use dapple::{Error, Result};
+use glam::Vec3;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Files in memory; names with `missing` in them are not there.
+struct Memory(BTreeMap<&'static str, String>);
+
+impl Assets for Memory {
+    fn image(&mut self, path: &Path) -> Result<Image> {
+        match path.extension().is_some_and(|ext| ext == "png") {
+            true => Ok(Image { width: 1, height: 1, texels: Texels::Rgba8(vec![[0; 4]]) }),
+            false => Err(Error::scene("the picture ends too early").at(path, 7, 0)),
+        }
+    }
+    fn mesh(&mut self, _: &Path) -> Result<Mesh> {
+        let part = |name: &str, at| MeshPart { name: name.into(), triangles: at..at + 1, material: None };
+        let parts = vec![part("Steel", 0), part("Glass", 1)];
+        Ok(Mesh { positions: vec![Vec3::ZERO; 3], triangles: vec![[0, 1, 2]; 2], parts, ..Mesh::default() })
+    }
+    fn exists(&mut self, path: &Path) -> bool {
+        !path.display().to_string().contains("missing")
+    }
+    fn text(&mut self, path: &Path) -> Result<String> {
+        self.0.get(path.display().to_string().as_str()).cloned().ok_or_else(|| Error::scene("no such text"))
+    }
+}
+
+fn message(files: &[(&'static str, String)], set: &[(&str, &str)]) -> String {
+    let set: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    match read_scene_with(Path::new("scene.toml"), &set, &mut Memory(files.iter().cloned().collect())) {
+        Ok(_) => "no error".into(),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Compares the messages of scene texts with the expected ones and reports all differences at once.
+fn check(cases: &[(&str, &str)]) {
+    let mut wrong = String::new();
+    for (text, expected) in cases {
+        let found = message(&[("scene.toml", text.to_string())], &[]);
+        let found = found.strip_prefix("scene.toml:").unwrap_or(&found);
+        if found != *expected {
+            wrong += &format!("\n{text}\n  expected {expected}\n  found    {found}\n");
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+const MATERIAL: &str = "[material.red]\nkind = 'diffuse'\n";
+
+fn check_with_material(cases: &[(&str, &str)]) {
+    let texts: Vec<_> = cases.iter().map(|(text, _)| format!("{MATERIAL}{text}")).collect();
+    check(&texts.iter().zip(cases).map(|(text, (_, message))| (text.as_str(), *message)).collect::<Vec<_>>());
+}
+
+#[test]
+fn toml_that_is_none() {
+    check(&[
+        ("[film", "1:6: unclosed table, expected `]`"),
+        ("[film]\nsize = [1, 2", "2:13: unclosed array, expected `]`"),
+        ("[film]\n\n  exposure = x", "3:14: string values must be quoted, expected literal string"),
+        ("[film]\nexposure = 1\nexposure = 2", "3:1: `exposure` is given twice"),
+        ("[material.red]\nkind = 'diffuse'\n[material.red]\n", "3:11: `red` is given twice"),
+        (
+            "[render]\nseed = 99999999999999999999",
+            "2:8: the whole number 99999999999999999999 needs more than 64 bits",
+        ),
+        (
+            "x = [[[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]]]",
+            "1:22: the value is nested more than 16 levels deep",
+        ),
+        ("film = 3", "1:8: `film` must be a table [film], found a whole number"),
+        ("[[camera]]", "1:1: `camera` must be a table [camera], found a list of 1"),
+        ("[shape]\nkind = 'sphere'", "1:1: `shape` must be a list of tables [[shape]], found a table"),
+        ("shape = [1]", "1:10: `shape` must hold tables [[shape]], found a whole number"),
+        ("texture = []", "1:11: `texture` must be tables [texture.NAME], found an empty list"),
+        (
+            "[material]\nkind = 'diffuse'",
+            "2:8: `material.kind` must be a table [material.NAME], found a string",
+        ),
+        ("[fim]\nsize = [1, 1]", "1:2: unknown key `fim` at the top of the scene; did you mean `film`?"),
+        ("include = 'a.toml'", "1:11: `include` must be a list of file names, found a string"),
+    ]);
+}
+
+#[test]
+fn film_and_render() {
+    check(&[
+        ("[film]\nsise = [1, 1]", "2:1: unknown key `sise` in [film]; did you mean `size`?"),
+        ("[film]\nsize = [0, 4]", "2:9: `size[0]` is 0, must be from 1 to 16384"),
+        ("[film]\nsize = [1, 2, 3]", "2:8: `size` must be a list of 2 whole numbers, found a list of 3"),
+        ("[film]\nsize = [1.5, 2]", "2:9: `size[0]` must be a whole number, found a decimal number"),
+        ("[film]\nsize = '640x480'", "2:8: `size` must be a list of 2 whole numbers, found a string"),
+        (
+            "[film]\nsize = [8, 8]\ncrop = [0, 0, 9, 8]",
+            "3:8: `crop` is [0, 0, 9, 8], must be inside the 8 × 8 pixels",
+        ),
+        (
+            "[film]\ncrop = [4, 0, 4, 8]",
+            "2:8: `crop` is [4, 0, 4, 8], must be [x0, y0, x1, y1] with x0 below x1 and y0 below y1",
+        ),
+        (
+            "[film]\nfilter = \"guassian\"",
+            "2:10: `filter` is \"guassian\", must be one of \"box\", \"tent\", \"gaussian\", \"blackman_harris\"; did you mean \"gaussian\"?",
+        ),
+        (
+            "[film]\nfilter = 3",
+            "2:10: `filter` must be one of \"box\", \"tent\", \"gaussian\", \"blackman_harris\", found a whole number",
+        ),
+        ("[film]\nfilter_radius = 0", "2:17: `filter_radius` is 0, must be above 0 and at most 64"),
+        ("[film]\nexposure = nan", "2:12: `exposure` is nan, must be finite"),
+        ("[film]\npng_bits = 12", "2:12: `png_bits` is 12, must be 8 or 16"),
+        ("[film]\ntransparent = 1", "2:15: `transparent` must be true or false, found a whole number"),
+        ("[render]\nspp = 0", "2:7: `spp` is 0, must be from 1 to 16777216"),
+        ("[render]\nspp = 16.0", "2:7: `spp` must be a whole number, found a decimal number"),
+        (
+            "[render]\nsampler = 'halton'",
+            "2:11: `sampler` is \"halton\", must be one of \"sobol\", \"stratified\", \"random\", \"regular\", \"center\"",
+        ),
+        ("[render]\nstrata = [4, 0]", "2:14: `strata[1]` is 0, must be from 1 to 4096"),
+        ("[render]\nmax_depth = -1", "2:13: `max_depth` is -1, must be from 0 to 1000"),
+        ("[render]\nfirefly_clamp = 0", "2:17: `firefly_clamp` is 0, must be above 0"),
+        (
+            "[render]\nzoom = 0",
+            "2:1: unknown key `zoom` in [render]; its keys are `spp`, `seed`, `sampler`, `strata`, `max_depth`, `diffuse_bounces`, `russian_roulette`, `firefly_clamp`, `geometric_veto`",
+        ),
+    ]);
+}
+
+#[test]
+fn cameras() {
+    check(&[
+        ("[camera]\nfov = 180", "2:7: `fov` is 180, must be above 0 and below 180"),
+        ("[camera]\nfov = '40'", "2:7: `fov` must be a number, found a string"),
+        ("[camera]\nposition = [0, 0]", "2:12: `position` must be a list of 3 numbers, found a list of 2"),
+        ("[camera]\nposition = [0, inf, 0]", "2:16: `position[1]` is inf, must be finite"),
+        ("[camera]\nposition = [0, 1e39, 0]", "2:16: `position[1]` is 1e39, must be below 3.4e38"),
+        ("[camera]\nposition = [1, 2, 3]\ntarget = [1, 2, 3]", "3:10: the camera looks at its own position"),
+        ("[camera]\nposition = [0, 0, 0]", "2:12: the camera looks at its own position"),
+        ("[camera]\nup = [0, 0, 0]", "2:6: `up` is the zero vector and gives no direction"),
+        ("[camera]\nup = [0, 0, -2]", "2:6: `up` is parallel to the view"),
+        ("[camera]\nposition = [0, 3, 0]", "2:12: `up` is parallel to the view"),
+        (
+            "[camera]\nfocus_distance = 3",
+            "2:18: `focus_distance` needs a lens, and the camera is a pinhole; add `lens_radius` or `f_number`",
+        ),
+        (
+            "[camera]\nf_number = 2",
+            "2:12: `f_number` needs a plane of focus; add `focus_distance` or `focus_point`",
+        ),
+        (
+            "[camera]\nf_number = 2\nlens_radius = 1\nfocus_distance = 1",
+            "3:15: [camera] has both `lens_radius` and `f_number`; keep one of them",
+        ),
+        ("[camera]\nlens_radius = -1\nfocus_distance = 1", "2:15: `lens_radius` is -1, must be at least 0"),
+        ("[camera]\nlens_radius = 1\nfocus_distance = 0", "3:18: `focus_distance` is 0, must be above 0"),
+        (
+            "[camera]\nlens_radius = 1\nfocus_point = [0, 0, 9]",
+            "3:15: `focus_point` is -4 in front of the camera along the view, must be above 0",
+        ),
+        (
+            "[camera]\nlens_radius = 1\nfocus_distance = 1\nsensor_height = 1",
+            "4:17: `sensor_height` has no meaning with `lens_radius`; remove it",
+        ),
+        (
+            "[camera]\nlens_radius = 1\nfocus_distance = 1\nblades = 2",
+            "4:10: `blades` is 2, must be 0 for a circle, or from 3 to 64",
+        ),
+    ]);
+}
