@@ -108,7 +108,11 @@ impl Gpu {
     }
 }
 
-fn record(device: &ash::Device, pool: vk::CommandPool, commands: &[Command<'_>]) -> Result<vk::CommandBuffer> {
+fn record(
+    device: &ash::Device,
+    pool: vk::CommandPool,
+    commands: &[Command<'_>],
+) -> Result<vk::CommandBuffer> {
     let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
     // SAFETY: the pool is alive and used by this thread only.
     let buffers = check(unsafe { device.allocate_command_buffers(&info) }, "make a command buffer")?;

@@ -97,10 +97,12 @@ impl Gpu {
         let (physical, info) = pick(candidates(&instance)?, choice)?;
         let queue_family = compute_family(&instance, physical)
             .ok_or_else(|| Error::device(format!("device `{}` has no compute queue", info.name)))?;
-        let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
+        let queues =
+            [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
         let create = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
         // SAFETY: `physical` is of this instance; `create` lives until the call returns.
-        let device = check(unsafe { instance.raw.create_device(physical, &create, None) }, "open the device")?;
+        let device =
+            check(unsafe { instance.raw.create_device(physical, &create, None) }, "open the device")?;
         // SAFETY: the device was made with one queue of this family.
         let queue = unsafe { device.get_device_queue(queue_family, 0) };
         let allocator = Allocator::new(&AllocatorCreateDesc {
@@ -165,7 +167,9 @@ fn describe(instance: &Instance, physical: vk::PhysicalDevice, index: usize) -> 
         }
         (base, instance.raw.get_physical_device_memory_properties(physical))
     };
-    let text = |s: Result<&std::ffi::CStr, _>| s.map_or_else(|_| String::new(), |s| s.to_string_lossy().into_owned());
+    let text = |s: Result<&std::ffi::CStr, _>| {
+        s.map_or_else(|_| String::new(), |s| s.to_string_lossy().into_owned())
+    };
     let version = base.api_version;
     let api = format!(
         "{}.{}.{}",
@@ -229,7 +233,9 @@ fn pick(
     let mut fit: Vec<_> = all.into_iter().filter(|(_, info)| matches(info)).collect();
     if fit.is_empty() {
         let wanted = choice.wanted.as_deref().unwrap_or_default();
-        return Err(Error::device(format!("no device `{wanted}`")).help(format!("there are {}", names.join(", "))));
+        return Err(
+            Error::device(format!("no device `{wanted}`")).help(format!("there are {}", names.join(", ")))
+        );
     }
     if let [(_, only)] = fit.as_slice()
         && let Some(why) = &only.unfit

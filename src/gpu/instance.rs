@@ -42,7 +42,8 @@ impl Instance {
         // SAFETY: the entry is loaded.
         let version = check(unsafe { entry.try_enumerate_instance_version() }, "ask the loader's version")?;
         if version.unwrap_or(vk::API_VERSION_1_0) < vk::API_VERSION_1_1 {
-            return Err(Error::device("the Vulkan loader is of version 1.0; dapple needs 1.2").help("update libvulkan"));
+            return Err(Error::device("the Vulkan loader is of version 1.0; dapple needs 1.2")
+                .help("update libvulkan"));
         }
         let messages = Arc::new(Messages::default());
         let layers = if validation { vec![VALIDATION_LAYER.as_ptr()] } else { Vec::new() };
@@ -115,7 +116,8 @@ fn listen(
         .pfn_user_callback(Some(on_message))
         .user_data(Arc::as_ptr(messages).cast_mut().cast());
     // SAFETY: the user data points into the `Arc` that the instance keeps until the messenger is destroyed.
-    let messenger = check(unsafe { debug.create_debug_utils_messenger(&info, None) }, "listen to validation")?;
+    let messenger =
+        check(unsafe { debug.create_debug_utils_messenger(&info, None) }, "listen to validation")?;
     Ok((debug, messenger))
 }
 
@@ -127,7 +129,8 @@ unsafe extern "system" fn on_message(
 ) -> vk::Bool32 {
     // SAFETY: `user` is the `Messages` given to `listen`; the layer passes valid data for the time of the call.
     let (messages, text) = unsafe {
-        let text = (*data).message_as_c_str().map_or_else(String::new, |text| text.to_string_lossy().into_owned());
+        let text =
+            (*data).message_as_c_str().map_or_else(String::new, |text| text.to_string_lossy().into_owned());
         (&*user.cast::<Messages>(), text)
     };
     messages.push(text);

@@ -20,8 +20,9 @@ use ash::vk;
 /// Turns a Vulkan result into an error that says what was being done.
 fn check<T>(result: ash::prelude::VkResult<T>, what: &str) -> Result<T> {
     result.map_err(|code| match code {
-        vk::Result::ERROR_DEVICE_LOST => Error::device(format!("the device was lost: {what}"))
-            .help("the driver reset it; try a smaller picture, look at the system log, or choose another --device"),
+        vk::Result::ERROR_DEVICE_LOST => Error::device(format!("the device was lost: {what}")).help(
+            "the driver reset it; try a smaller picture, look at the system log, or choose another --device",
+        ),
         vk::Result::ERROR_OUT_OF_DEVICE_MEMORY => Error::device(format!("out of device memory: {what}"))
             .help("use smaller meshes or textures, or another --device"),
         vk::Result::ERROR_OUT_OF_HOST_MEMORY => Error::device(format!("out of host memory: {what}")),

@@ -57,7 +57,8 @@ impl Gpu {
                     .stage_flags(vk::ShaderStageFlags::COMPUTE)
             })
             .collect();
-        let storage = bindings.iter().filter(|b| b.descriptor_type == vk::DescriptorType::STORAGE_BUFFER).count();
+        let storage =
+            bindings.iter().filter(|b| b.descriptor_type == vk::DescriptorType::STORAGE_BUFFER).count();
         if storage > self.inner.info.limits.storage_buffers as usize {
             return Err(Error::device(format!(
                 "device `{}` allows {} storage buffers in a kernel, dapple needs {storage}",
@@ -74,7 +75,8 @@ impl Gpu {
         let sets = [set];
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
         // SAFETY: as above; `set` is of this device.
-        layout.pipeline = check(unsafe { device.create_pipeline_layout(&info, None) }, "make the pipeline layout")?;
+        layout.pipeline =
+            check(unsafe { device.create_pipeline_layout(&info, None) }, "make the pipeline layout")?;
         Ok(Arc::new(layout))
     }
 
@@ -83,7 +85,8 @@ impl Gpu {
         let device = &self.inner.device;
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
         // SAFETY: the words come from glslang; the module is destroyed below.
-        let module = check(unsafe { device.create_shader_module(&info, None) }, &format!("load kernel `{name}`"))?;
+        let module =
+            check(unsafe { device.create_shader_module(&info, None) }, &format!("load kernel `{name}`"))?;
         let stage = vk::PipelineShaderStageCreateInfo::default()
             .stage(vk::ShaderStageFlags::COMPUTE)
             .module(module)
@@ -109,7 +112,9 @@ impl Gpu {
         let device = &self.inner.device;
         let count = |kind| {
             let all = BINDINGS.iter().flat_map(|b| descriptors(b, layout.backend));
-            vk::DescriptorPoolSize::default().ty(kind).descriptor_count(all.filter(|d| d.1 == kind).count().max(1) as u32)
+            vk::DescriptorPoolSize::default()
+                .ty(kind)
+                .descriptor_count(all.filter(|d| d.1 == kind).count().max(1) as u32)
         };
         let sizes = [
             count(vk::DescriptorType::UNIFORM_BUFFER),
@@ -142,20 +147,28 @@ impl Gpu {
 }
 
 impl Bindings {
-    fn bind(&mut self, name: &str, number: u32, kind: vk::DescriptorType, buffer: &Arc<Buffer>) -> Result<()> {
+    fn bind(
+        &mut self,
+        name: &str,
+        number: u32,
+        kind: vk::DescriptorType,
+        buffer: &Arc<Buffer>,
+    ) -> Result<()> {
         self.keep.push(buffer.clone());
         let inner = &self.layout.inner;
         check_limit(inner, name, kind, buffer.bytes())?;
         let buffers = [vk::DescriptorBufferInfo::default().buffer(buffer.raw).range(vk::WHOLE_SIZE)];
         let mut texels = [vk::BufferView::null()];
-        let write = vk::WriteDescriptorSet::default().dst_set(self.set).dst_binding(number).descriptor_type(kind);
+        let write =
+            vk::WriteDescriptorSet::default().dst_set(self.set).dst_binding(number).descriptor_type(kind);
         let write = if kind == vk::DescriptorType::UNIFORM_TEXEL_BUFFER {
             let info = vk::BufferViewCreateInfo::default()
                 .buffer(buffer.raw)
                 .format(vk::Format::R32G32B32A32_UINT)
                 .range(vk::WHOLE_SIZE);
             // SAFETY: the buffer has texel usage and is kept as long as the view in `views`.
-            let view = check(unsafe { inner.device.create_buffer_view(&info, None) }, &format!("view `{name}`"))?;
+            let view =
+                check(unsafe { inner.device.create_buffer_view(&info, None) }, &format!("view `{name}`"))?;
             self.views.push(view);
             texels[0] = view;
             write.texel_buffer_view(&texels)
@@ -172,7 +185,9 @@ impl Bindings {
 fn check_limit(inner: &Inner, name: &str, kind: vk::DescriptorType, bytes: u64) -> Result<()> {
     let limits = &inner.info.limits;
     let (limit, what) = match kind {
-        vk::DescriptorType::UNIFORM_TEXEL_BUFFER => (limits.texel_buffer_elements * WORD_BYTES, "maxTexelBufferElements"),
+        vk::DescriptorType::UNIFORM_TEXEL_BUFFER => {
+            (limits.texel_buffer_elements * WORD_BYTES, "maxTexelBufferElements")
+        }
         vk::DescriptorType::STORAGE_BUFFER => (limits.storage_buffer_bytes, "maxStorageBufferRange"),
         _ => return Ok(()),
     };

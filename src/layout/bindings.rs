@@ -83,17 +83,26 @@ pub fn bindings_glsl() -> String {
         let Binding { number, name, .. } = *binding;
         _ = match (binding.kind, binding.view) {
             (BindingKind::Uniform, _) => {
-                writeln!(out, "layout(std140, set = 0, binding = {number}) uniform FrameBlock {{ Frame {name}; }};")
+                writeln!(
+                    out,
+                    "layout(std140, set = 0, binding = {number}) uniform FrameBlock {{ Frame {name}; }};"
+                )
             }
             (BindingKind::Read, Some(view)) => {
-                writeln!(out, "READ_WORDS({number}, {view}, Words_{name}, words_{name}, texels_{name}, fetch_{name})")
+                writeln!(
+                    out,
+                    "READ_WORDS({number}, {view}, Words_{name}, words_{name}, texels_{name}, fetch_{name})"
+                )
             }
             (BindingKind::ReadWrite, Some(view)) => writeln!(
                 out,
                 "READ_WRITE_WORDS({number}, {view}, Words_{name}, words_{name}, texels_{name}, fetch_{name}, store_{name})"
             ),
             _ => {
-                writeln!(out, "layout(std430, set = 0, binding = {number}) buffer Uints_{name} {{ uint {name}[]; }};")
+                writeln!(
+                    out,
+                    "layout(std430, set = 0, binding = {number}) buffer Uints_{name} {{ uint {name}[]; }};"
+                )
             }
         };
     }

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 
 /// The text of `shaders/shared/layout.glsl`: constants, then each record with its unpacking function.
 pub fn layout_glsl() -> String {
-    let mut out = String::from("// Written by src/layout; do not edit. Records are whole numbers of uvec4 words.\n\n");
+    let mut out =
+        String::from("// Written by src/layout; do not edit. Records are whole numbers of uvec4 words.\n\n");
     for (name, value, doc) in CONSTANTS {
         _ = writeln!(out, "const uint {name} = {value}u; // {doc}");
     }
@@ -33,7 +34,13 @@ fn write_unpack(out: &mut String, record: &RecordInfo) {
     _ = writeln!(out, "{} {snake}_unpack({})\n{{\n    {} r;", record.name, words.join(", "), record.name);
     for field in record.fields {
         let lanes: Vec<String> = (0..components(field.glsl_type))
-            .map(|i| format!("w{}.{}", (field.offset + i) / 4, ["x", "y", "z", "w"][((field.offset + i) % 4) as usize]))
+            .map(|i| {
+                format!(
+                    "w{}.{}",
+                    (field.offset + i) / 4,
+                    ["x", "y", "z", "w"][((field.offset + i) % 4) as usize]
+                )
+            })
             .collect();
         let value = match field.glsl_type {
             "uint" => lanes[0].clone(),

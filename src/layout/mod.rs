@@ -59,7 +59,10 @@ mod tests {
             std::fs::write(&path, text).unwrap();
         }
         let committed = std::fs::read_to_string(&path).unwrap_or_default();
-        assert!(committed == text, "{file} differs from src/layout; accept with BLESS=layout cargo test layout");
+        assert!(
+            committed == text,
+            "{file} differs from src/layout; accept with BLESS=layout cargo test layout"
+        );
     }
 
     #[test]
@@ -74,7 +77,8 @@ mod tests {
 
     #[test]
     fn at_most_24_storage_buffers_and_no_number_twice() {
-        let mut numbers: Vec<u32> = BINDINGS.iter().flat_map(|b| [Some(b.number), b.view]).flatten().collect();
+        let mut numbers: Vec<u32> =
+            BINDINGS.iter().flat_map(|b| [Some(b.number), b.view]).flatten().collect();
         numbers.sort_unstable();
         assert!(numbers.windows(2).all(|pair| pair[0] < pair[1]), "{numbers:?}");
         let storage = BINDINGS.iter().filter(|b| b.kind != BindingKind::Uniform).count();

@@ -14,14 +14,30 @@ pub struct RecordInfo {
 }
 
 macro_rules! glsl_type {
-    (f32) => { "float" };
-    (u32) => { "uint" };
-    ([f32; 2]) => { "vec2" };
-    ([f32; 3]) => { "vec3" };
-    ([f32; 4]) => { "vec4" };
-    ([u32; 2]) => { "uvec2" };
-    ([u32; 3]) => { "uvec3" };
-    ([u32; 4]) => { "uvec4" };
+    (f32) => {
+        "float"
+    };
+    (u32) => {
+        "uint"
+    };
+    ([f32; 2]) => {
+        "vec2"
+    };
+    ([f32; 3]) => {
+        "vec3"
+    };
+    ([f32; 4]) => {
+        "vec4"
+    };
+    ([u32; 2]) => {
+        "uvec2"
+    };
+    ([u32; 3]) => {
+        "uvec3"
+    };
+    ([u32; 4]) => {
+        "uvec4"
+    };
 }
 
 /// Declares records: the Rust struct, its place in GLSL, and [`RECORDS`].
@@ -358,7 +374,11 @@ pub const CONSTANTS: &[(&str, u32, &str)] = &[
     ("TILE", TILE, "side of a tile of pixels, one workgroup"),
     ("STACK_ENTRIES", STACK_ENTRIES, "most entries of the traversal stack; a variant has TRAVERSAL_STACK"),
     ("FILM_PLANES", FILM_PLANES, "words of the film a pixel"),
-    ("LEAF", LEAF, "bit of a child reference: a leaf; bits 27..30 hold its primitives less one, bits 0..27 the first"),
+    (
+        "LEAF",
+        LEAF,
+        "bit of a child reference: a leaf; bits 27..30 hold its primitives less one, bits 0..27 the first",
+    ),
     ("LEAF_INSTANCE", LEAF_INSTANCE, "bit of a leaf reference: bits 0..27 are an instance"),
     ("LEAF_COUNT_SHIFT", LEAF_COUNT_SHIFT, ""),
     ("LEAF_FIRST_MASK", LEAF_FIRST_MASK, ""),

@@ -82,7 +82,10 @@ impl Atlas {
         let [bx, by] = format.block();
         let size = [image.width.div_ceil(bx).max(1), image.height.div_ceil(by).max(1)];
         let (page, corner) = self.allocate(format, size).ok_or_else(|| {
-            Error::scene(format!("picture `{name}` of {} x {} does not fit the atlas", image.width, image.height))
+            Error::scene(format!(
+                "picture `{name}` of {} x {} does not fit the atlas",
+                image.width, image.height
+            ))
         })?;
         let target = &mut self.pages[page];
         let rows = (corner[1] + size[1]) as usize * target.width as usize;
@@ -133,7 +136,9 @@ fn format_of(image: &Image, space: ColorSpace) -> Format {
     match (&image.texels, space) {
         (Texels::Rgba8(_), ColorSpace::Linear) => Format::Rgba8,
         (Texels::Rgba8(_), ColorSpace::Srgb) => Format::Rgba8Srgb,
-        (Texels::RgbaF32(texels), ColorSpace::Linear) if texels.iter().flatten().all(is_half) => Format::Rgba16F,
+        (Texels::RgbaF32(texels), ColorSpace::Linear) if texels.iter().flatten().all(is_half) => {
+            Format::Rgba16F
+        }
         _ => Format::RgbaF32,
     }
 }
@@ -152,9 +157,8 @@ pub(super) struct Reader<'a> {
 impl Reader<'_> {
     fn block(&self, format: Format, x: u32, y: u32) -> [u32; 4] {
         match format {
-            Format::Rgba8 | Format::Rgba8Srgb => {
-                [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[i, j]| u32::from_le_bytes(self.bytes(2 * x + i, 2 * y + j)))
-            }
+            Format::Rgba8 | Format::Rgba8Srgb => [[0, 0], [1, 0], [0, 1], [1, 1]]
+                .map(|[i, j]| u32::from_le_bytes(self.bytes(2 * x + i, 2 * y + j))),
             Format::Rgba16F => {
                 let pair = |a: f32, b: f32| {
                     u32::from(f16::from_f32(a).to_bits()) | u32::from(f16::from_f32(b).to_bits()) << 16

@@ -50,7 +50,8 @@ pub fn build(bounds: Vec<Bounds>, max_leaf: u32, quality: Quality) -> Tree {
         return Tree { root: NONE, ..Tree::default() };
     }
     let boxes: Vec<Boxed> = bounds.into_iter().map(Boxed).collect();
-    let tree = Tree::from_obvhs(&build_bvh2(&boxes, params(max_leaf, quality), &mut std::time::Duration::default()));
+    let tree =
+        Tree::from_obvhs(&build_bvh2(&boxes, params(max_leaf, quality), &mut std::time::Duration::default()));
     match tree {
         Some(tree) if tree.depth <= MAX_DEPTH => tree,
         _ => balanced(&boxes, max_leaf),
@@ -76,7 +77,11 @@ impl Tree {
         let order = bvh.primitive_indices.clone();
         if root.is_leaf() {
             let fits = root.prim_count <= MAX_LEAF;
-            return fits.then(|| Self { order, root: leaf(root.first_index, root.prim_count), ..Self::default() });
+            return fits.then(|| Self {
+                order,
+                root: leaf(root.first_index, root.prim_count),
+                ..Self::default()
+            });
         }
         let mut tree = Self { order, root: 0, ..Self::default() };
         let area = |node: &obvhs::bvh2::node::Bvh2Node| f64::from(node.aabb().half_area());
@@ -167,7 +172,9 @@ fn balanced(boxes: &[Boxed], max_leaf: u32) -> Tree {
         });
         let axis = largest_axis(size.max - size.min);
         let half = part.len() / 2;
-        part.select_nth_unstable_by(half, |&a, &b| center(a)[axis].total_cmp(&center(b)[axis]).then(a.cmp(&b)));
+        part.select_nth_unstable_by(half, |&a, &b| {
+            center(a)[axis].total_cmp(&center(b)[axis]).then(a.cmp(&b))
+        });
         for (second, (from, to)) in [(start, start + half), (start + half, end)].into_iter().enumerate() {
             let (bounds, count) = (bounds_of(&order[from..to]), (to - from) as u32);
             let node = &mut tree.nodes[here];
@@ -223,7 +230,9 @@ mod tests {
                 continue;
             }
             let node = tree.nodes[reference as usize];
-            for (child, min, max) in [(node.child0, node.min0, node.max0), (node.child1, node.min1, node.max1)] {
+            for (child, min, max) in
+                [(node.child0, node.min0, node.max0), (node.child1, node.min1, node.max1)]
+            {
                 let inner = Bounds { min: min.into(), max: max.into() };
                 assert!(inner.min.cmpge(outer.min).all() && inner.max.cmple(outer.max).all());
                 open.push((child, inner, depth + 1));

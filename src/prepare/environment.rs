@@ -57,7 +57,8 @@ fn cell(read: &Reader<'_>, image: &Image, column: u32, row_from_top: u32, size: 
         let (from, to) = ((from / u64::from(cells)) as u32, to.div_ceil(u64::from(cells)) as u32);
         (from.saturating_sub(1), (to + 1).min(texels))
     };
-    let ((x0, x1), (y0, y1)) = (span(column, size[0], image.width), span(row_from_top, size[1], image.height));
+    let ((x0, x1), (y0, y1)) =
+        (span(column, size[0], image.width), span(row_from_top, size[1], image.height));
     let mut sum = 0.0;
     for y in y0..y1 {
         for x in x0..x1 {

@@ -185,7 +185,8 @@ impl Prepared {
     fn push_instance(&mut self, kind: u32, world_from_object: Affine3A, material: u32) -> u32 {
         let rows = |m: &Affine3A| {
             let (linear, t) = (m.matrix3.transpose(), m.translation);
-            [linear.x_axis.extend(t.x), linear.y_axis.extend(t.y), linear.z_axis.extend(t.z)].map(|r| r.to_array())
+            [linear.x_axis.extend(t.x), linear.y_axis.extend(t.y), linear.z_axis.extend(t.z)]
+                .map(|r| r.to_array())
         };
         let (world, object) = (rows(&world_from_object), rows(&world_from_object.inverse()));
         self.instances.push(Instance {
@@ -210,11 +211,14 @@ impl Prepared {
     /// Builds the tree of some triangles and puts them in its order. Gives root and depth.
     fn push_tree(&mut self, triangles: Vec<Triangle>) -> Result<(u32, u32)> {
         let (nodes, first) = (self.nodes.len(), self.triangles.len());
-        if nodes + triangles.len() > LEAF_FIRST_MASK as usize || first + triangles.len() > LEAF_FIRST_MASK as usize {
+        if nodes + triangles.len() > LEAF_FIRST_MASK as usize
+            || first + triangles.len() > LEAF_FIRST_MASK as usize
+        {
             return Err(Error::scene(format!("more than {LEAF_FIRST_MASK} triangles")).help("use instances"));
         }
         let start = std::time::Instant::now();
-        let mut tree = bvh::build(triangles.iter().map(triangle_bounds).collect(), TRIANGLES_A_LEAF, Quality::Default);
+        let mut tree =
+            bvh::build(triangles.iter().map(triangle_bounds).collect(), TRIANGLES_A_LEAF, Quality::Default);
         self.bvh_seconds.0 += start.elapsed().as_secs_f64();
         tree.shift(nodes as u32, first as u32);
         self.nodes.append(&mut tree.nodes);
@@ -273,7 +277,8 @@ fn push_triangles(
 fn mesh_shines(scene: &Scene, mesh: crate::scene::Handle<Mesh>) -> bool {
     let shines = |material| scene.materials[material].emission.is_some();
     let parts = scene.meshes[mesh].parts.iter().filter_map(|part| part.material);
-    let instances = scene.instances.iter().filter(|instance| instance.mesh == mesh).map(|instance| instance.material);
+    let instances =
+        scene.instances.iter().filter(|instance| instance.mesh == mesh).map(|instance| instance.material);
     parts.chain(instances).any(shines)
 }
 
@@ -325,11 +330,9 @@ pub(super) fn shape_frame(shape: &Shape) -> Affine3A {
 
 fn world_from_object(instance: &Instance) -> Affine3A {
     let rows = [instance.world_row0, instance.world_row1, instance.world_row2].map(glam::Vec4::from);
-    let linear = Mat3A::from_cols(rows[0].truncate().into(), rows[1].truncate().into(), rows[2].truncate().into());
-    Affine3A {
-        matrix3: linear.transpose(),
-        translation: Vec3::new(rows[0].w, rows[1].w, rows[2].w).into(),
-    }
+    let linear =
+        Mat3A::from_cols(rows[0].truncate().into(), rows[1].truncate().into(), rows[2].truncate().into());
+    Affine3A { matrix3: linear.transpose(), translation: Vec3::new(rows[0].w, rows[1].w, rows[2].w).into() }
 }
 
 fn triangle_bounds(t: &Triangle) -> Bounds {

@@ -37,7 +37,9 @@ pub(super) fn prepare(scene: &Scene, textures: &References, placed: Vec<Placed>,
     let lamps = entries.iter().filter_map(|entry| entry.power).map(f64::from).sum::<f64>();
     let distant = entries.iter().filter(|entry| entry.power.is_none()).count();
     let share = 1.0 / (distant + usize::from(environment) + usize::from(lamps > 0.0)).max(1) as f64;
-    let weight = |entry: &Entry| entry.power.map_or(share, |power| share * f64::from(power) / lamps.max(f64::MIN_POSITIVE));
+    let weight = |entry: &Entry| {
+        entry.power.map_or(share, |power| share * f64::from(power) / lamps.max(f64::MIN_POSITIVE))
+    };
     let weights: Vec<f64> = entries.iter().map(weight).collect();
     let useful = weights.iter().any(|weight| *weight > 0.0);
     out.features.environment = environment;
@@ -116,7 +118,10 @@ fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References,
         let material = if uniform { instance.material } else { of_part(i) };
         entries.push(match &scene.materials[material].emission {
             Some(emission) => triangle(mesh, i, map, emission, textures),
-            None => Entry { light: Light { kind: LIGHT_TRIANGLE, texture: NONE, ..Light::default() }, power: Some(0.0) },
+            None => Entry {
+                light: Light { kind: LIGHT_TRIANGLE, texture: NONE, ..Light::default() },
+                power: Some(0.0),
+            },
         });
     }
 }

@@ -164,7 +164,8 @@ fn choose_units(scene: &Scene, out: &mut Prepared) {
         crate::scene::Value::Texture(_) => e.scale,
     });
     let lights = out.lights.iter().map(|light| Vec3::from(light.radiance).max_element());
-    let surfaces = out.materials.iter().map(|m| Vec3::from(m.emission).max(Vec3::from(m.color)).max_element());
+    let surfaces =
+        out.materials.iter().map(|m| Vec3::from(m.emission).max(Vec3::from(m.color)).max_element());
     let brightest = lights.chain(surfaces).fold(environment.max(1.0), f32::max);
     out.radiance_exponent = (brightest.log2().ceil() as i32 - 30).clamp(-60, 60);
     let far = out.bounds.diagonal().max(1e-6);

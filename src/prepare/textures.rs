@@ -38,7 +38,10 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
         places.push((texture, atlas.place(scene, texture)?));
     }
     if places.len() * ImageTexture::WORDS as usize >= 1 << 24 {
-        return Err(Error::scene(format!("{} textures are too many: their records take 2^24 words", places.len())));
+        return Err(Error::scene(format!(
+            "{} textures are too many: their records take 2^24 words",
+            places.len()
+        )));
     }
     let mut shapes: Vec<Format> = Vec::new();
     let mut references = References { references: Vec::new(), means: Vec::new() };
@@ -115,6 +118,10 @@ fn record(texture: &scene::ImageTexture, image: &scene::Image, (base, pitch): (u
         uv_column1: uv.matrix2.y_axis.to_array(),
         uv_offset: uv.translation.to_array(),
         scale: texture.scale,
-        flags: wrap(texture.wrap[0]) | wrap(texture.wrap[1]) << 2 | nearest | invert | channel << CHANNEL_SHIFT,
+        flags: wrap(texture.wrap[0])
+            | wrap(texture.wrap[1]) << 2
+            | nearest
+            | invert
+            | channel << CHANNEL_SHIFT,
     }
 }

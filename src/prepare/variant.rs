@@ -28,15 +28,8 @@ pub enum Stage {
 
 impl Stage {
     /// All stages.
-    pub const ALL: [Self; 7] = [
-        Self::Camera,
-        Self::Intersect,
-        Self::Shade,
-        Self::Shadow,
-        Self::Advance,
-        Self::Film,
-        Self::Evaluate,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::Camera, Self::Intersect, Self::Shade, Self::Shadow, Self::Advance, Self::Film, Self::Evaluate];
 
     /// File in the shader tree.
     pub fn file(self) -> &'static str {
@@ -68,7 +61,12 @@ const FILTERS: [(&str, FilterKind); 4] = [
 ];
 
 /// The switches of a stage: only those that its files ask for, so that a scene edit compiles only what it touches.
-pub fn defines(scene: &Scene, prepared: &Prepared, stage: Stage, backend: Backend) -> BTreeMap<String, String> {
+pub fn defines(
+    scene: &Scene,
+    prepared: &Prepared,
+    stage: Stage,
+    backend: Backend,
+) -> BTreeMap<String, String> {
     let mut all = BTreeMap::new();
     let mut set = |name: &str, value: String| _ = all.insert(name.to_owned(), value);
     if backend == Backend::Texel {

@@ -1,8 +1,8 @@
 //! [`Prepared`] → [`Resident`]: the buffers of a scene on the device.
 
+use crate::Result;
 use crate::gpu::{Buffer, Gpu};
 use crate::prepare::Prepared;
-use crate::Result;
 use std::sync::Arc;
 
 /// The buffers that the kernels read of a scene, by the names of the table of bindings.

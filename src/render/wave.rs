@@ -2,10 +2,10 @@
 
 use super::kernels::Kernels;
 use super::resident::Resident;
+use crate::Result;
 use crate::gpu::{Bindings, Buffer, Command, Gpu, Place, Ticket};
 use crate::layout::Frame;
 use crate::prepare::Stage;
-use crate::Result;
 use std::sync::Arc;
 
 /// Bytes of a slot in each buffer of a wave; those of `stages/wave.glsl`.
@@ -92,7 +92,8 @@ impl Wave {
             Command::Barrier,
         ];
         let film_groups = frame.threads * frame.tile_count.div_ceil(frame.threads);
-        let ticket = gpu.submit(&camera.into_iter().chain(self.rounds(kernels, film_groups)).collect::<Vec<_>>())?;
+        let ticket =
+            gpu.submit(&camera.into_iter().chain(self.rounds(kernels, film_groups)).collect::<Vec<_>>())?;
         self.ticket = Some(ticket);
         Ok(())
     }
