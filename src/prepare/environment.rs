@@ -29,7 +29,7 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
 /// Brightness times solid angle of each cell, row by row, v growing with the row.
 fn weights(texture: &ImageTexture, image: &Image, out: &mut Prepared) -> Vec<f64> {
     let plain = texture.uv == crate::scene::UvTransform::default();
-    let size = [image.width.min(MOST_COLUMNS), image.height.min(MOST_COLUMNS / 2).max(1)];
+    let size = [image.width.min(MOST_COLUMNS), image.height.clamp(1, MOST_COLUMNS / 2)];
     out.environment_size = size;
     let read = Reader { image, decode: texture.color_space == ColorSpace::Srgb };
     let latitude = |row: u32| ((f64::from(row) + 0.5) / f64::from(size[1]) - 0.5) * PI;

@@ -12,8 +12,9 @@ pub use resident::Resident;
 use crate::film::{self, Film};
 use crate::gpu::{Buffer, Command, DeviceType, Gpu, Place};
 use crate::layout::{Backend, FILM_PLANES, Frame, TILE, WORD_BYTES, WORKGROUP};
-use crate::prepare::Prepared;
+use crate::prepare::{self, Prepared};
 use crate::scene::{Rect, Scene};
+use crate::shader::Compiler;
 use crate::{Error, Result};
 use plan::{Plan, Slice, Tiles};
 use std::sync::Arc;
@@ -61,6 +62,22 @@ pub struct Renderer {
     slicing: Slicing,
 }
 
+/// How a scene is brought onto a device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// How kernels read.
+    pub backend: Backend,
+    /// How the work is cut.
+    pub slicing: Slicing,
+}
+
+impl Options {
+    /// What suits a device.
+    pub fn of(gpu: &Gpu) -> Self {
+        Self { backend: backend_of(gpu), slicing: Slicing::of(gpu) }
+    }
+}
+
 impl Slicing {
     /// What suits a device.
     pub fn of(gpu: &Gpu) -> Self {
@@ -87,6 +104,13 @@ fn threads_of(gpu: &Gpu) -> u32 {
 }
 
 impl Renderer {
+    /// Prepares a scene, compiles its kernels and puts it on the device: all the way from [`Scene`] in one step.
+    pub fn open(gpu: Arc<Gpu>, compiler: &mut Compiler, scene: &Scene, options: Options) -> Result<Self> {
+        let mut prepared = prepare::prepare(scene)?;
+        let kernels = Kernels::new(&gpu, compiler, scene, &prepared, options.backend)?;
+        Self::new(gpu, kernels, scene, &mut prepared, options.slicing)
+    }
+
     /// Puts a scene on the device. `prepared` loses its large parts on the way.
     pub fn new(
         gpu: Arc<Gpu>,
