@@ -11,10 +11,9 @@ void main()
     uint slot = queue[path_queue(turn, i)];
     if (slot == NONE) return;
     WaveRay ray = ray_load(slot);
-    Traversal s = fetch_hits(slot).w == HIT_PARKED ? traversal_resume(2u * slot) : traversal_start(FAR);
-    bool finished = traverse(ray.origin, ray.direction, s);
-    if (!finished) traversal_park(2u * slot, s);
-    bool hit = s.hit.triangle != NONE || s.hit.instance != NONE;
+    Hit nearest = Hit(FAR, NONE, NONE);
+    bool finished = traverse(ray.origin, ray.direction, fetch_hits(slot).w == HIT_PARKED, 2u * slot, nearest);
+    bool hit = nearest.triangle != NONE || nearest.instance != NONE;
     uint state = !finished ? HIT_PARKED : hit ? HIT_SURFACE : HIT_MISS;
-    store_hits(slot, uvec4(floatBitsToUint(s.hit.t), s.hit.triangle, s.hit.instance, state));
+    store_hits(slot, uvec4(floatBitsToUint(nearest.t), nearest.triangle, nearest.instance, state));
 }

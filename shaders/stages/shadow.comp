@@ -16,10 +16,10 @@ void main()
     uvec4 b = fetch_shadows(slot * SHADOW_WORDS + 1u);
     uvec4 c = fetch_shadows(slot * SHADOW_WORDS + 2u);
     bool resumed = c.w != 0u;
-    Traversal s = resumed ? traversal_resume(2u * slot + 1u) : traversal_start(uintBitsToFloat(a.w));
-    bool finished = traverse(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), s);
+    Hit blocker = Hit(uintBitsToFloat(a.w), NONE, NONE);
+    bool finished = traverse(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), resumed, 2u * slot + 1u, blocker);
     if (finished) {
-        if (s.hit.triangle == NONE && s.hit.instance == NONE) {
+        if (blocker.triangle == NONE && blocker.instance == NONE) {
             uvec4 radiance = fetch_paths(slot * PATH_WORDS + 1u);
             vec3 sum = uintBitsToFloat(radiance.xyz) + uintBitsToFloat(c.xyz);
             store_paths(slot * PATH_WORDS + 1u, uvec4(floatBitsToUint(sum), radiance.w));
@@ -28,7 +28,6 @@ void main()
         return;
     }
     // The rest waits in the other half; the path waits for it in shade.comp.
-    traversal_park(2u * slot + 1u, s);
     store_shadows(slot * SHADOW_WORDS + 2u, uvec4(c.xyz, 1u));
     shadow_append(1u - turn, slot);
 }

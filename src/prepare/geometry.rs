@@ -14,7 +14,7 @@ use crate::{Error, Result};
 use glam::{Affine3A, Mat3A, Vec2, Vec3};
 
 /// Most triangles a leaf holds.
-const TRIANGLES_A_LEAF: u32 = 4;
+const TRIANGLES_A_LEAF: u32 = 8;
 
 /// Where a thing that may shine went: for the table of lights.
 pub(super) struct Placed {

@@ -1,7 +1,7 @@
 //! The kernels of a scene on a device.
 
 use crate::Result;
-use crate::gpu::{Gpu, Layout, Pipeline};
+use crate::gpu::{Command, Gpu, Layout, Pipeline};
 use crate::layout::Backend;
 use crate::prepare::{self, Prepared, Stage};
 use crate::scene::Scene;
@@ -41,6 +41,15 @@ impl Kernels {
     /// The layout that all of them share.
     pub fn layout(&self) -> &Arc<Layout> {
         &self.layout
+    }
+
+    /// The stage that a command dispatches.
+    pub(super) fn stage_of(&self, command: &Command<'_>) -> Option<Stage> {
+        let (Command::Dispatch { pipeline, .. } | Command::DispatchIndirect { pipeline, .. }) = command
+        else {
+            return None;
+        };
+        self.pipelines.iter().find(|(_, own)| Arc::ptr_eq(own, pipeline)).map(|(stage, _)| *stage)
     }
 
     /// The pipeline of a stage.

@@ -12,7 +12,7 @@ pub use resident::Resident;
 use crate::film::{self, Film};
 use crate::gpu::{Buffer, Command, DeviceType, Gpu, Place};
 use crate::layout::{Backend, FILM_PLANES, Frame, TILE, WORD_BYTES, WORKGROUP};
-use crate::prepare::{self, Prepared};
+use crate::prepare::{self, Prepared, Stage};
 use crate::scene::{Rect, Scene};
 use crate::shader::Compiler;
 use crate::{Error, Result};
@@ -50,6 +50,40 @@ pub enum Next {
     Continue,
     /// Stop when every pixel has the same number of samples.
     Stop,
+}
+
+/// Rays and the time that they took.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Rays {
+    /// Number of rays.
+    pub count: u64,
+    /// Seconds of the kernel that traced them.
+    pub seconds: f64,
+}
+
+impl Rays {
+    fn add(&mut self, count: u32, seconds: f64) {
+        self.count += u64::from(count);
+        self.seconds += seconds;
+    }
+
+    /// Millions a second; 0 when there were none.
+    pub fn mega_per_second(&self) -> f64 {
+        if self.seconds > 0.0 { self.count as f64 / self.seconds / 1e6 } else { 0.0 }
+    }
+}
+
+/// What the stages of a render took.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Measured {
+    /// Seconds of each stage, in the order of [`Stage::ALL`].
+    pub seconds: [f64; Stage::ALL.len()],
+    /// First rays of the paths.
+    pub camera: Rays,
+    /// Their other rays.
+    pub bounce: Rays,
+    /// Shadow rays.
+    pub shadow: Rays,
 }
 
 /// A scene on a device, ready to render.
@@ -144,18 +178,24 @@ impl Renderer {
         spp: u32,
         watch: &mut dyn FnMut(&Progress) -> Next,
     ) -> Result<Film> {
-        let tiles = Tiles::of(self.film_frame.window);
-        let pixel_bytes = u64::from(FILM_PLANES) * WORD_BYTES;
-        let tile_bytes = pixel_bytes * u64::from(WORKGROUP);
+        let mut run = self.start(spp)?;
+        let mut plan = Plan::new(run.tiles, run.band, first_sample, spp);
+        run.all(&mut plan, watch)?;
+        Ok(run.sums)
+    }
+
+    /// Makes the buffers of a render.
+    fn start(&self, spp: u32) -> Result<Run<'_>> {
+        let tiles = Tiles::of(self.film_frame.window).count();
+        let tile_bytes = u64::from(FILM_PLANES) * WORD_BYTES * u64::from(WORKGROUP);
         let most = (self.gpu.info().limits.storage_buffer_bytes.min(MOST_FILM_BYTES) / tile_bytes).max(1);
-        let band = tiles.count().min(u32::try_from(most).unwrap_or(u32::MAX));
-        let mut plan = Plan::new(tiles.count(), band, first_sample, spp);
+        let band = tiles.min(u32::try_from(most).unwrap_or(u32::MAX));
         let film = self.gpu.buffer("film", u64::from(band) * tile_bytes, Place::Device)?;
         let host = self.gpu.buffer("film (host)", film.bytes(), Place::Readback)?;
         self.gpu.run(&[Command::Fill { buffer: &film, bytes: film.bytes(), value: 0 }, Command::Barrier])?;
-        let work = u64::from(tiles.count()) * u64::from(WORKGROUP) * u64::from(spp);
+        let work = u64::from(tiles) * u64::from(WORKGROUP) * u64::from(spp);
         let most_slots = self.slots_within_limits(work);
-        let mut run = Run {
+        Ok(Run {
             renderer: self,
             waves: [self.wave(&film, most_slots)?, self.wave(&film, most_slots)?],
             frames: [self.frame; 2],
@@ -163,11 +203,26 @@ impl Renderer {
             device_film: film,
             host_film: host,
             dirty: None,
+            tiles,
+            band,
+            work,
             most_slots,
             slots: most_slots,
-        };
-        run.all(&mut plan, work, watch)?;
-        Ok(run.sums)
+        })
+    }
+
+    /// Renders `spp` samples stage by stage, waiting after each. For measurements: the waiting makes it slower than
+    /// [`Self::render`].
+    pub fn measure(&self, spp: u32) -> Result<Measured> {
+        let mut run = self.start(spp)?;
+        let mut plan = Plan::new(run.tiles, run.band, 0, spp);
+        let mut measured = Measured::default();
+        while let Some(slice) = plan.next(run.slots) {
+            run.frames[0] = frame::of_slice(&self.frame, &slice, plan.band_of(slice.first_tile));
+            run.waves[0].measure(&self.gpu, &self.kernels, &run.frames[0], &mut measured)?;
+            run.finish(0)?;
+        }
+        Ok(measured)
     }
 
     fn wave(&self, film: &Arc<Buffer>, slots: u32) -> Result<Wave> {
@@ -195,12 +250,17 @@ struct Run<'a> {
     host_film: Arc<Buffer>,
     /// The band whose sums are on the device: first tile, tiles.
     dirty: Option<(u32, u32)>,
+    /// Tiles of the picture, and of a band of it that the film on the device holds.
+    tiles: u32,
+    band: u32,
+    /// Paths of the whole render.
+    work: u64,
     most_slots: u32,
     slots: u32,
 }
 
 impl Run<'_> {
-    fn all(&mut self, plan: &mut Plan, work: u64, watch: &mut dyn FnMut(&Progress) -> Next) -> Result<()> {
+    fn all(&mut self, plan: &mut Plan, watch: &mut dyn FnMut(&Progress) -> Next) -> Result<()> {
         let start = Instant::now();
         let (mut samples, mut stop, mut turn) = (0_u64, false, 0_usize);
         let mut last = start;
@@ -218,7 +278,7 @@ impl Run<'_> {
             samples += u64::from(slice.slots());
             let progress = Progress {
                 spp: slice.first_sample + if plan.at_pass_end() { slice.samples } else { 0 },
-                done: samples as f64 / work.max(1) as f64,
+                done: samples as f64 / self.work.max(1) as f64,
                 samples,
                 elapsed: start.elapsed(),
             };

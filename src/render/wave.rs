@@ -1,12 +1,14 @@
 //! The buffers of a wave of paths, and the commands that send it through the kernels.
 
+use super::Measured;
 use super::kernels::Kernels;
 use super::resident::Resident;
 use crate::Result;
 use crate::gpu::{Bindings, Buffer, Command, Gpu, Place, Ticket};
-use crate::layout::Frame;
+use crate::layout::{Frame, WORKGROUP};
 use crate::prepare::Stage;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Bytes of a slot in each buffer of a wave; those of `stages/wave.glsl`.
 const RAY_BYTES: u64 = 32;
@@ -83,19 +85,59 @@ impl Wave {
     pub(super) fn start(&mut self, gpu: &Gpu, kernels: &Kernels, frame: &Frame) -> Result<()> {
         debug_assert!(self.ticket.is_none() && frame.slot_count <= self.slots);
         self.frame.write(bytemuck::bytes_of(frame));
-        let groups = frame.threads * (frame.slot_count / crate::layout::WORKGROUP).div_ceil(frame.threads);
-        let camera = [
-            Command::Barrier,
-            Command::Dispatch { pipeline: kernels.pipeline(Stage::Camera), bindings: &self.bindings, groups },
-            Command::Barrier,
-            self.one(kernels, Stage::Advance, 1),
-            Command::Barrier,
-        ];
-        let film_groups = frame.threads * frame.tile_count.div_ceil(frame.threads);
-        let ticket =
-            gpu.submit(&camera.into_iter().chain(self.rounds(kernels, film_groups)).collect::<Vec<_>>())?;
-        self.ticket = Some(ticket);
+        let commands: Vec<_> =
+            self.first(kernels, frame).into_iter().chain(self.rounds(kernels, frame)).collect();
+        self.ticket = Some(gpu.submit(&commands)?);
         Ok(())
+    }
+
+    /// Runs a slice command by command and adds what each stage took to `measured`.
+    pub(super) fn measure(
+        &mut self,
+        gpu: &Gpu,
+        kernels: &Kernels,
+        frame: &Frame,
+        measured: &mut Measured,
+    ) -> Result<()> {
+        self.frame.write(bytemuck::bytes_of(frame));
+        let mut rays = (0, 0);
+        let mut camera = true;
+        for command in self.first(kernels, frame).into_iter().chain(self.rounds(kernels, frame)) {
+            let Some(stage) = kernels.stage_of(&command) else {
+                gpu.run(&[command, Command::Barrier])?;
+                continue;
+            };
+            let start = Instant::now();
+            gpu.run(&[command, Command::Barrier])?;
+            let seconds = start.elapsed().as_secs_f64();
+            measured.seconds[stage as usize] += seconds;
+            match stage {
+                Stage::Advance => rays = self.waiting(gpu)?,
+                Stage::Intersect => {
+                    let part = if camera { &mut measured.camera } else { &mut measured.bounce };
+                    part.add(rays.0, seconds);
+                    camera = false;
+                }
+                Stage::Shadow => measured.shadow.add(rays.1, seconds),
+                _ => {}
+            }
+        }
+        self.again(gpu, kernels, frame)
+    }
+
+    /// Paths and shadow rays that wait for the next round.
+    fn waiting(&self, gpu: &Gpu) -> Result<(u32, u32)> {
+        let copy = Command::Copy { from: &self.counters, to: &self.seen, bytes: COUNTER_BYTES };
+        gpu.run(&[copy, Command::Barrier])?;
+        self.seen_waiting()
+    }
+
+    /// The same, as the counters were when they were last copied.
+    fn seen_waiting(&self) -> Result<(u32, u32)> {
+        self.seen.read(COUNTER_BYTES, |c| {
+            let turn = (c[0] & 1) as usize;
+            (c[1 + turn], c[3 + turn])
+        })
     }
 
     /// Waits until the slice is in the film. Paths that were parked, or go on for longer than was recorded, go round
@@ -103,18 +145,29 @@ impl Wave {
     pub(super) fn finish(&mut self, gpu: &Gpu, kernels: &Kernels, frame: &Frame) -> Result<()> {
         while let Some(ticket) = self.ticket.take() {
             ticket.wait()?;
-            let left = self.seen.read(COUNTER_BYTES, |c| {
-                let turn = (c[0] & 1) as usize;
-                c[1 + turn] + c[3 + turn]
-            })?;
-            if left > 0 {
-                let film_groups = frame.threads * frame.tile_count.div_ceil(frame.threads);
-                let mut commands = vec![Command::Barrier];
-                commands.extend(self.rounds(kernels, film_groups));
-                self.ticket = Some(gpu.submit(&commands)?);
-            }
+            self.again(gpu, kernels, frame)?;
         }
         Ok(())
+    }
+
+    /// Sends what is left of a slice round again.
+    fn again(&mut self, gpu: &Gpu, kernels: &Kernels, frame: &Frame) -> Result<()> {
+        let (paths, shadows) = self.seen_waiting()?;
+        if paths + shadows > 0 {
+            self.ticket = Some(gpu.submit(&self.rounds(kernels, frame))?);
+        }
+        Ok(())
+    }
+
+    /// The first rays, and the queue of them.
+    fn first<'a>(&'a self, kernels: &'a Kernels, frame: &Frame) -> Vec<Command<'a>> {
+        let groups = frame.threads * (frame.slot_count / WORKGROUP).div_ceil(frame.threads);
+        vec![
+            Command::Barrier,
+            self.one(kernels, Stage::Camera, groups),
+            Command::Barrier,
+            self.one(kernels, Stage::Advance, 1),
+        ]
     }
 
     fn one<'a>(&'a self, kernels: &'a Kernels, stage: Stage, groups: u32) -> Command<'a> {
@@ -122,14 +175,15 @@ impl Wave {
     }
 
     /// Rounds of all paths through the kernels, then the film, then the counters for the host.
-    fn rounds<'a>(&'a self, kernels: &'a Kernels, film_groups: u32) -> Vec<Command<'a>> {
+    fn rounds<'a>(&'a self, kernels: &'a Kernels, frame: &Frame) -> Vec<Command<'a>> {
+        let film_groups = frame.threads * frame.tile_count.div_ceil(frame.threads);
         let over = |stage, offset| Command::DispatchIndirect {
             pipeline: kernels.pipeline(stage),
             bindings: &self.bindings,
             sizes: &self.counters,
             offset,
         };
-        let mut commands = Vec::new();
+        let mut commands = vec![Command::Barrier];
         for _ in 0..self.rounds {
             commands.extend([
                 over(Stage::Intersect, PATH_GROUPS_OFFSET),
