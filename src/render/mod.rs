@@ -166,7 +166,7 @@ impl Renderer {
             most_slots,
             slots: most_slots,
         };
-        run.all(&mut plan, work, watch)?;
+        run.all(&mut plan, first_sample, work, watch)?;
         Ok(run.sums)
     }
 
@@ -200,7 +200,13 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn all(&mut self, plan: &mut Plan, work: u64, watch: &mut dyn FnMut(&Progress) -> Next) -> Result<()> {
+    fn all(
+        &mut self,
+        plan: &mut Plan,
+        first_sample: u32,
+        work: u64,
+        watch: &mut dyn FnMut(&Progress) -> Next,
+    ) -> Result<()> {
         let start = Instant::now();
         let (mut samples, mut stop, mut turn) = (0_u64, false, 0_usize);
         let mut last = start;
@@ -217,7 +223,7 @@ impl Run<'_> {
             turn = 1 - turn;
             samples += u64::from(slice.slots());
             let progress = Progress {
-                spp: slice.first_sample + if plan.at_pass_end() { slice.samples } else { 0 },
+                spp: slice.first_sample - first_sample + if plan.at_pass_end() { slice.samples } else { 0 },
                 done: samples as f64 / work.max(1) as f64,
                 samples,
                 elapsed: start.elapsed(),
