@@ -2,7 +2,7 @@
 
 use super::args::CheckArgs;
 use super::console::Console;
-use super::devices::mebibytes;
+use super::devices::bytes_text;
 use dapple::Result;
 use dapple::import::{Warning, read_scene};
 use dapple::prepare::{self, Prepared};
@@ -92,7 +92,7 @@ impl Contents {
             ("environment", if self.environment { "yes" } else { "no" }.to_owned()),
             ("BVH nodes", self.bvh_nodes.to_string()),
             ("stack entries", self.stack_entries.to_string()),
-            ("on the device", mebibytes(self.device_bytes)),
+            ("on the device", bytes_text(self.device_bytes)),
             ("warnings", self.warnings.len().to_string()),
         ];
         let mut out = String::new();

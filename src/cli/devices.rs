@@ -77,10 +77,10 @@ fn as_text(devices: &[DeviceInfo], variables: &[(&str, String)]) -> String {
             ("type", kind_name(info.kind).to_owned()),
             ("driver", info.driver.clone()),
             ("Vulkan", info.api.clone()),
-            ("memory", mebibytes(limits.memory_bytes)),
+            ("memory", bytes_text(limits.memory_bytes)),
             (
                 "storage buffer",
-                format!("{}, {} a kernel", mebibytes(limits.storage_buffer_bytes), limits.storage_buffers),
+                format!("{}, {} a kernel", bytes_text(limits.storage_buffer_bytes), limits.storage_buffers),
             ),
             ("texel buffer", format!("{} texels", limits.texel_buffer_elements)),
             ("dispatch", format!("{} workgroups", limits.workgroups)),
@@ -103,7 +103,11 @@ fn as_text(devices: &[DeviceInfo], variables: &[(&str, String)]) -> String {
     out.trim_end().to_owned()
 }
 
-/// Bytes in MiB.
-pub fn mebibytes(bytes: u64) -> String {
-    format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
+/// Bytes in the unit that suits them.
+pub fn bytes_text(bytes: u64) -> String {
+    match bytes {
+        0..10_240 => format!("{bytes} bytes"),
+        10_240..10_485_760 => format!("{:.1} KiB", bytes as f64 / 1024.0),
+        _ => format!("{:.1} MiB", bytes as f64 / 1_048_576.0),
+    }
 }

@@ -50,6 +50,11 @@ impl Job {
             compiler: Compiler::new(sources, CacheOptions::from_environment()),
         })
     }
+
+    /// The target, as text.
+    pub fn file(&self) -> Option<String> {
+        self.target.as_ref().map(|file| file.to_string_lossy().into_owned())
+    }
 }
 
 /// The file that the picture goes to, checked.

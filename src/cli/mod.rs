@@ -7,6 +7,7 @@ mod args;
 mod check;
 mod console;
 mod devices;
+mod event;
 mod job;
 mod parse;
 mod pixel;

@@ -1,41 +1,24 @@
 //! The values of one pixel, for `--pixel`.
 
 use super::console::Console;
+use super::event::Event;
 use super::parse::Pixel;
 use dapple::film::Picture;
 use dapple::{Error, Result};
-use serde::Serialize;
 
-/// All planes of a pixel, under the names that they have in an EXR.
-#[derive(Debug, Serialize)]
-struct Values {
-    event: &'static str,
-    x: u32,
-    y: u32,
-    rgb: [f32; 3],
-    alpha: f32,
-    albedo: [f32; 3],
-    normal: [f32; 3],
-    /// None in JSON, where there is no infinity, when nothing was hit.
-    depth: Option<f32>,
-    variance: [f32; 3],
-    samples: u32,
-}
-
-/// Prints the pixel of a picture that holds only it.
+/// Prints the first pixel of a picture, which holds only that.
 pub fn print(picture: &Picture, pixel: Pixel, console: &mut Console) -> Result<()> {
     let values = values(picture, pixel).ok_or_else(|| Error::device("the picture has no pixel"))?;
     if console.json() {
         console.event(&values);
     } else {
-        console.result(&values.words());
+        console.result(&words(picture, pixel));
     }
     Ok(())
 }
 
-fn values(picture: &Picture, Pixel { x, y }: Pixel) -> Option<Values> {
-    Some(Values {
-        event: "pixel",
+fn values(picture: &Picture, Pixel { x, y }: Pixel) -> Option<Event> {
+    Some(Event::Pixel {
         x,
         y,
         rgb: *picture.rgb.first()?,
@@ -48,20 +31,20 @@ fn values(picture: &Picture, Pixel { x, y }: Pixel) -> Option<Values> {
     })
 }
 
-impl Values {
-    fn words(&self) -> String {
-        let three = |[a, b, c]: [f32; 3]| format!("{a} {b} {c}");
-        let depth = self.depth.map_or_else(|| "inf".to_owned(), |depth| depth.to_string());
-        format!(
-            "pixel    {} {}\nrgb      {}\nalpha    {}\nalbedo   {}\nnormal   {}\ndepth    {depth}\nvariance {}\nsamples  {}",
-            self.x,
-            self.y,
-            three(self.rgb),
-            self.alpha,
-            three(self.albedo),
-            three(self.normal),
-            three(self.variance),
-            self.samples
-        )
-    }
+/// A name and its numbers a line.
+fn words(picture: &Picture, Pixel { x, y }: Pixel) -> String {
+    let three =
+        |plane: &[[f32; 3]]| plane.first().map_or_else(String::new, |[a, b, c]| format!("{a} {b} {c}"));
+    let one = |plane: &[f32]| plane.first().map_or_else(String::new, f32::to_string);
+    let rows = [
+        ("pixel", format!("{x} {y}")),
+        ("rgb", three(&picture.rgb)),
+        ("alpha", one(&picture.alpha)),
+        ("albedo", three(&picture.albedo)),
+        ("normal", three(&picture.normal)),
+        ("depth", one(&picture.depth)),
+        ("variance", three(&picture.variance)),
+        ("samples", picture.samples.first().map_or_else(String::new, u32::to_string)),
+    ];
+    rows.map(|(name, value)| format!("{name:<8} {value}")).join("\n")
 }

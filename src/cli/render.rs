@@ -2,6 +2,7 @@
 
 use super::args::RenderArgs;
 use super::console::{Console, Step};
+use super::event::{Event, Where};
 use super::job::Job;
 use super::stop::{Reason, Stop};
 use super::{Failure, pixel, repeat};
@@ -9,7 +10,6 @@ use dapple::film::{self, Film};
 use dapple::gpu::{DeviceType, Gpu};
 use dapple::render::{Next, Options, Progress, Renderer};
 use dapple::{Error, Result};
-use serde_json::json;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -22,7 +22,12 @@ pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
     let stop = Stop::watch(args.time_limit)?;
     let mut job = Job::new(args)?;
     for warning in &job.warnings {
-        warn(console, &warning.to_string());
+        if console.json() {
+            let place = Where::from(&warning.place);
+            console.event(&Event::Warning { message: warning.message.clone(), place });
+        } else {
+            console.note(&format!("warning: {warning}"));
+        }
     }
     let gpu = Arc::new(Gpu::open(&job.device)?);
     let info = gpu.info();
@@ -39,36 +44,26 @@ pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
     console.clear_bar();
     let film = outcome.map_err(|error| Failure {
         error,
-        repeat: Some(repeat::from_sample(job.first_sample.saturating_add(sound))),
+        repeat: Some(repeat::from_sample(job.first_sample.saturating_add(sound.spp))),
     })?;
     deliver(&job, &film, reason, start.elapsed(), console)?;
     Ok(())
 }
 
-/// A warning in the voice of the console.
-fn warn(console: &mut Console, message: &str) {
-    if console.json() {
-        console.event(&json!({ "event": "warning", "message": message }));
-    } else {
-        console.note(&format!("warning: {message}"));
-    }
-}
-
 fn announce(job: &Job, gpu: &Gpu, console: &mut Console) {
     let (film, info) = (&job.scene.film, gpu.info());
     let window = film.window();
-    console.event(&json!({
-        "event": "start",
-        "device": info.name,
-        "driver": info.driver,
-        "type": super::devices::kind_name(info.kind),
-        "size": [film.width, film.height],
-        "window": [window.x0, window.y0, window.x1, window.y1],
-        "spp": job.scene.render.spp,
-        "first_sample": job.first_sample,
-        "seed": job.scene.render.seed,
-        "file": job.target.as_ref().map(|file| file.to_string_lossy()),
-    }));
+    console.event(&Event::Start {
+        device: info.name.clone(),
+        driver: info.driver.clone(),
+        kind: super::devices::kind_name(info.kind),
+        size: [film.width, film.height],
+        window: [window.x0, window.y0, window.x1, window.y1],
+        spp: job.scene.render.spp,
+        first_sample: job.first_sample,
+        seed: job.scene.render.seed,
+        file: job.file(),
+    });
 }
 
 /// Errors of the user's shaders name files in the folder of `--shaders`: adds the folder where the file is there.
@@ -90,58 +85,76 @@ struct Watch<'a> {
     /// Samples of the whole work.
     work: f64,
     told: Option<Duration>,
-    /// Samples a pixel after the last slice and the one before it.
-    last: u32,
-    /// Samples a pixel that were certainly rendered without an error.
-    sound: u32,
+    last: Reached,
+    /// What is certainly rendered without an error.
+    sound: Reached,
     reason: Option<Reason>,
+}
+
+/// How far a render is: samples of each pixel, share of the work.
+#[derive(Debug, Clone, Copy, Default)]
+struct Reached {
+    spp: u32,
+    done: f64,
 }
 
 impl<'a> Watch<'a> {
     fn new(job: &Job, stop: &'a Stop, console: &'a mut Console) -> Self {
         let spp = job.scene.render.spp;
         let work = job.scene.film.window().area() as f64 * f64::from(spp);
-        Self { stop, console, spp, work, told: None, last: 0, sound: 0, reason: None }
+        let nothing = Reached::default();
+        Self { stop, console, spp, work, told: None, last: nothing, sound: nothing, reason: None }
     }
 
     fn step(&mut self, progress: &Progress) -> Next {
         // The slice of this step was only submitted; the ones before it are known to be done.
-        (self.sound, self.last) = (self.last, progress.spp);
-        let elapsed = progress.elapsed;
-        self.reason = self.reason.or_else(|| self.stop.reason(elapsed));
-        let samples = progress.done * self.work;
-        let rate = samples / elapsed.as_secs_f64().max(1e-9);
-        self.console.bar(&Step {
-            spp: progress.spp,
-            of: self.spp,
-            done: progress.done,
-            rate,
-            left: self.left(progress),
-            stopping: self.reason.is_some(),
-        });
-        if self.told.is_none_or(|told| elapsed >= told + EVENT_PERIOD) || progress.spp == self.spp {
-            self.told = Some(elapsed);
-            self.console.event(&json!({
-                "event": "progress",
-                "spp": progress.spp,
-                "done": progress.done,
-                "samples": samples.round() as u64,
-                "samples_per_second": rate,
-                "elapsed_s": elapsed.as_secs_f64(),
-            }));
-        }
+        self.sound = self.last;
+        self.last = Reached { spp: progress.spp, done: progress.done };
+        self.reason = self.reason.or_else(|| self.stop.reason(progress.elapsed));
+        self.tell(progress.elapsed);
         if self.reason.is_some() { Next::Stop } else { Next::Continue }
     }
 
+    fn tell(&mut self, elapsed: Duration) {
+        let Reached { spp, done } = self.sound;
+        let seconds = elapsed.as_secs_f64();
+        let samples = done * self.work;
+        let rate = samples / seconds.max(1e-9);
+        let (left, stopping) = (self.left(elapsed), self.reason.is_some());
+        self.console.bar(&Step { spp, of: self.spp, done, rate, left, stopping });
+        if self.told.is_none_or(|told| elapsed >= told + EVENT_PERIOD) {
+            self.told = Some(elapsed);
+            self.console.event(&Event::Progress {
+                spp,
+                done,
+                samples: samples.round() as u64,
+                samples_per_second: rate,
+                elapsed_s: seconds,
+            });
+        }
+    }
+
     /// Time to the end of the work or to the time limit, whichever comes first.
-    fn left(&self, progress: &Progress) -> Option<Duration> {
-        let factor = (1.0 - progress.done).max(0.0) / progress.done;
-        let work = Duration::try_from_secs_f64(progress.elapsed.as_secs_f64() * factor).ok();
-        match (work, self.stop.left(progress.elapsed)) {
+    fn left(&self, elapsed: Duration) -> Option<Duration> {
+        let factor = (1.0 - self.sound.done).max(0.0) / self.sound.done;
+        let work = Duration::try_from_secs_f64(elapsed.as_secs_f64() * factor).ok();
+        match (work, self.stop.left(elapsed)) {
             (Some(work), Some(limit)) => Some(work.min(limit)),
             (work, limit) => work.or(limit),
         }
     }
+}
+
+/// What came out of a render.
+struct Summary {
+    spp: u32,
+    wanted: u32,
+    /// Samples of all pixels, those that were left out among them.
+    samples: u64,
+    left_out: u64,
+    clamped: u64,
+    stopped_by: Option<Reason>,
+    seconds: f64,
 }
 
 /// Writes the picture, prints the pixel, and says what was done.
@@ -159,44 +172,49 @@ fn deliver(
     if let Some(place) = job.pixel {
         pixel::print(&picture, place, console)?;
     }
-    let (spp, wanted) = (film.samples_per_pixel(), job.scene.render.spp);
-    let (left_out, clamped) = (film.left_out(), film.clamped());
-    // A sample that was left out was rendered all the same.
-    let reason = reason.filter(|_| spp < wanted && left_out == 0);
-    console.event(&json!({
-        "event": "done",
-        "file": job.target.as_ref().map(|file| file.to_string_lossy()),
-        "spp": spp,
-        "seconds": took.as_secs_f64(),
-        "left_out": left_out,
-        "clamped": clamped,
-        "stopped_by": reason,
-    }));
-    if console.json() {
-        return Ok(());
-    }
-    let all = picture.samples.iter().map(|&n| u64::from(n)).sum::<u64>() + left_out;
-    if left_out > 0 {
-        warn(console, &format!("{left_out} of {all} samples were not finite and are left out"));
-    }
-    if clamped > 0 {
-        warn(
-            console,
-            &format!("{clamped} of {all} samples were brighter than the film can hold and are clamped"),
-        );
-    }
-    if let Some(reason) = reason {
-        console.note(&format!("stopped by {reason} after {spp} of {wanted} samples a pixel"));
-    }
-    if let Some(file) = &job.target {
-        let window = job.scene.film.window();
-        console.note(&format!(
-            "{}: {} x {} pixels, {spp} samples a pixel, {:.1} s",
-            file.display(),
-            window.width(),
-            window.height(),
-            took.as_secs_f64()
-        ));
-    }
+    let left_out = film.left_out();
+    let samples = picture.samples.iter().map(|&n| u64::from(n)).sum::<u64>() + left_out;
+    let wanted = job.scene.render.spp;
+    // A signal during the last pass stops nothing.
+    let whole = job.scene.film.window().area() * u64::from(wanted);
+    let summary = Summary {
+        spp: film.samples_per_pixel(),
+        wanted,
+        samples,
+        left_out,
+        clamped: film.clamped(),
+        stopped_by: reason.filter(|_| samples < whole),
+        seconds: took.as_secs_f64(),
+    };
+    summary.tell(job, console);
     Ok(())
+}
+
+impl Summary {
+    fn tell(&self, job: &Job, console: &mut Console) {
+        let Self { spp, wanted, samples, left_out, clamped, stopped_by, seconds } = *self;
+        let file = job.file();
+        if console.json() {
+            console.event(&Event::Done { file, spp, seconds, left_out, clamped, stopped_by });
+            return;
+        }
+        if left_out > 0 {
+            console
+                .note(&format!("warning: {left_out} of {samples} samples were not finite and are left out"));
+        }
+        if clamped > 0 {
+            console.note(&format!(
+                "warning: {clamped} of {samples} samples were brighter than the film can hold and are clamped"
+            ));
+        }
+        if let Some(reason) = stopped_by {
+            console.note(&format!("stopped by {reason} after {spp} of {wanted} samples a pixel"));
+        }
+        if let Some(file) = file {
+            let window = job.scene.film.window();
+            let (width, height) = (window.width(), window.height());
+            console
+                .note(&format!("{file}: {width} x {height} pixels, {spp} samples a pixel, {seconds:.1} s"));
+        }
+    }
 }

@@ -2,9 +2,9 @@
 
 use super::Failure;
 use super::console::{Console, say};
+use super::event::{Event, Where};
 use dapple::{Error, Place};
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
-use serde_json::json;
 use std::fmt;
 use std::io::IsTerminal;
 
@@ -18,18 +18,16 @@ pub fn print(failure: &Failure, console: &mut Console) {
     console.clear_bar();
     let error = &failure.error;
     if console.json() {
-        let place = error
-            .place
-            .as_ref()
-            .map(|p| json!({ "file": p.file.to_string_lossy(), "line": p.line, "column": p.column }));
-        console.event(&json!({
-            "event": "error",
-            "message": error.message,
-            "help": error.help,
-            "place": place,
-            "repeat": failure.repeat,
-        }));
-        return;
+        console.event(&Event::Error {
+            message: error.message.clone(),
+            help: error.help.clone(),
+            place: error.place.as_ref().map(Where::from),
+            repeat: failure.repeat.clone(),
+        });
+        // Where the event cannot go, words can.
+        if console.finish().is_ok() {
+            return;
+        }
     }
     say(&text(error));
     if let Some(command) = &failure.repeat {
