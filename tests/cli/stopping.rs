@@ -47,8 +47,8 @@ fn check_stopped(room: &Room, ran: &Ran, reason: &str) {
 #[cfg(unix)]
 fn a_second_interrupt_quits_at_once() {
     let room = Room::new();
-    // A pass over so many pixels takes long enough for two signals.
-    let (child, _) = started(&room, "render scene.toml --spp 1000 --size 1536x1536 --json");
+    // A pass over so many pixels takes a software driver long enough for two signals.
+    let (child, _) = started(&room, "render scene.toml --spp 1000 --size 1024x1024 --json");
     send(&child, "-INT");
     std::thread::sleep(Duration::from_millis(50));
     send(&child, "-INT");
