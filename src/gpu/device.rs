@@ -90,6 +90,15 @@ pub fn devices() -> Result<Vec<DeviceInfo>> {
     Ok(candidates(&instance)?.into_iter().map(|(_, info)| info).collect())
 }
 
+/// The device that [`Gpu::open`] would open, without opening it.
+///
+/// # Errors
+/// When there is no loader or driver, or no device fits the choice.
+pub fn choose(choice: &DeviceChoice) -> Result<DeviceInfo> {
+    let instance = Instance::new(choice.validation)?;
+    Ok(pick(candidates(&instance)?, choice)?.1)
+}
+
 impl Gpu {
     /// Opens the chosen device.
     pub fn open(choice: &DeviceChoice) -> Result<Self> {

@@ -11,7 +11,7 @@ mod pipeline;
 
 pub use buffer::{Buffer, Place};
 pub use command::{Command, Ticket};
-pub use device::{DeviceChoice, DeviceInfo, DeviceType, Gpu, Limits, devices};
+pub use device::{DeviceChoice, DeviceInfo, DeviceType, Gpu, Limits, choose, devices};
 pub use pipeline::{Bindings, Layout, Pipeline};
 
 use crate::{Error, Result};

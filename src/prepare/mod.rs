@@ -69,6 +69,25 @@ pub struct Prepared {
     pub bvh_seconds: Seconds,
 }
 
+impl Prepared {
+    /// Bytes of all records: what the scene takes on the device, but for the rounding of its memory.
+    pub fn bytes(&self) -> u64 {
+        let sizes = [
+            size_of_val(self.nodes.as_slice()),
+            size_of_val(self.triangles.as_slice()),
+            size_of_val(self.faces.as_slice()),
+            size_of_val(self.vertices.as_slice()),
+            size_of_val(self.instances.as_slice()),
+            size_of_val(self.materials.as_slice()),
+            size_of_val(self.textures.as_slice()),
+            size_of_val(self.texels.as_slice()),
+            size_of_val(self.lights.as_slice()),
+            size_of_val(self.environment.as_slice()),
+        ];
+        sizes.iter().map(|&bytes| bytes as u64).sum()
+    }
+}
+
 /// A duration that is equal to every other, so that [`Prepared`] can be compared.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Seconds(pub f64);

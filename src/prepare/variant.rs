@@ -31,6 +31,19 @@ impl Stage {
     pub const ALL: [Self; 7] =
         [Self::Camera, Self::Intersect, Self::Shade, Self::Shadow, Self::Advance, Self::Film, Self::Evaluate];
 
+    /// Its name: that of its file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Camera => "camera",
+            Self::Intersect => "intersect",
+            Self::Shade => "shade",
+            Self::Shadow => "shadow",
+            Self::Advance => "advance",
+            Self::Film => "film",
+            Self::Evaluate => "evaluate",
+        }
+    }
+
     /// File in the shader tree.
     pub fn file(self) -> &'static str {
         match self {

@@ -180,7 +180,7 @@ impl Renderer {
     ) -> Result<Film> {
         let mut run = self.start(spp)?;
         let mut plan = Plan::new(run.tiles, run.band, first_sample, spp);
-        run.all(&mut plan, watch)?;
+        run.all(&mut plan, first_sample, watch)?;
         Ok(run.sums)
     }
 
@@ -260,7 +260,12 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn all(&mut self, plan: &mut Plan, watch: &mut dyn FnMut(&Progress) -> Next) -> Result<()> {
+    fn all(
+        &mut self,
+        plan: &mut Plan,
+        first_sample: u32,
+        watch: &mut dyn FnMut(&Progress) -> Next,
+    ) -> Result<()> {
         let start = Instant::now();
         let (mut samples, mut stop, mut turn) = (0_u64, false, 0_usize);
         let mut last = start;
@@ -277,7 +282,7 @@ impl Run<'_> {
             turn = 1 - turn;
             samples += u64::from(slice.slots());
             let progress = Progress {
-                spp: slice.first_sample + if plan.at_pass_end() { slice.samples } else { 0 },
+                spp: slice.first_sample - first_sample + if plan.at_pass_end() { slice.samples } else { 0 },
                 done: samples as f64 / self.work.max(1) as f64,
                 samples,
                 elapsed: start.elapsed(),

@@ -2,8 +2,8 @@
 
 use super::blob;
 use dapple::scene::{
-    Camera, Conductor, Dielectric, Emission, Environment, Film, Fresnel, Handle, Instance, Material, Render, Scene, Shape,
-    ShapeKind, Surface, Value,
+    Camera, Conductor, Dielectric, Emission, Environment, Film, Fresnel, Handle, Instance, Material, Render,
+    Scene, Shape, ShapeKind, Surface, Value,
 };
 use glam::{Affine3A, Mat3, Quat, Vec3};
 

@@ -58,7 +58,9 @@ color = [0.4, 0.45, 0.5]
 /// Writes both files into a folder, which is made when it is missing.
 pub(super) fn write(folder: &Path) -> Result<()> {
     let fail = |path: &Path, error: &std::io::Error| {
-        Error::output(format!("cannot write: {error}")).in_file(path).help("choose another folder for --write-scene")
+        Error::output(format!("cannot write: {error}"))
+            .in_file(path)
+            .help("choose another folder for --write-scene")
     };
     std::fs::create_dir_all(folder).map_err(|error| fail(folder, &error))?;
     for (name, bytes) in [("blob.ply", ply(&blob::mesh(7))), ("blob.toml", SCENE.as_bytes().to_vec())] {

@@ -1,0 +1,172 @@
+//! What the user typed: nothing here looks at the world.
+
+use super::parse::{self, Pixel, Setting, Size};
+use clap::{Args as ClapArgs, Parser, Subcommand};
+use dapple::film::MAX_SAMPLES;
+use dapple::scene::Rect;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// A ray tracer written in GLSL compute shaders on Vulkan
+#[derive(Debug, Parser)]
+#[command(name = "dapple", disable_version_flag = true, arg_required_else_help = true, after_help = AFTER_HELP)]
+pub struct Args {
+    /// Print the version of dapple and the device and driver that it would use
+    #[arg(short = 'V', long)]
+    pub version: bool,
+    /// What to do
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+const AFTER_HELP: &str = "Exit codes: 0 done, 1 the render failed, 2 bad usage or scene, 130 second Ctrl-C.\n\
+    The language of scenes is described in scenes/README.md.";
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a scene to a PNG or EXR file
+    Render(Box<RenderArgs>),
+    /// List the Vulkan devices of this machine, and the variables that choose drivers
+    Devices(DevicesArgs),
+    /// Read and prepare a scene, and print what is in it; needs no device
+    Check(CheckArgs),
+    /// Measure the speed of this machine on built-in scenes, or on one of yours
+    Bench(BenchArgs),
+}
+
+/// `dapple bench`.
+#[derive(Debug, ClapArgs)]
+pub struct BenchArgs {
+    /// A scene to measure in place of the built-in ones
+    pub scene: Option<PathBuf>,
+    /// Samples a pixel; default: what each scene says
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
+    pub spp: Option<u32>,
+    /// Rounds of which the best counts
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub rounds: u32,
+    /// Device, by its number or a part of its name as `dapple devices` shows them
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub device: Option<String>,
+    /// Fail rather than measure a CPU
+    #[arg(long)]
+    pub require_gpu: bool,
+    /// Read the kernels from a folder, file by file
+    #[arg(long, value_name = "DIR")]
+    pub shaders: Option<PathBuf>,
+    /// How kernels read; default: what suits the device
+    #[arg(long, value_enum)]
+    pub fetch: Option<Fetch>,
+    /// Print one JSON object in place of the table
+    #[arg(long)]
+    pub json: bool,
+    /// Write the built-in scene `blob` as DIR/blob.toml and DIR/blob.ply, and measure nothing
+    #[arg(long, value_name = "DIR")]
+    pub write_scene: Option<PathBuf>,
+}
+
+/// How kernels read words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Fetch {
+    /// Texel buffers
+    Texel,
+    /// Storage buffers
+    Storage,
+}
+
+/// `dapple render`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = RENDER_HELP)]
+pub struct RenderArgs {
+    /// The scene, a TOML file
+    pub scene: PathBuf,
+    /// The picture: .png (sRGB) or .exr (linear, all planes); default: name of the scene with .png, in this folder
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Samples a pixel; default: what the scene says
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
+    pub spp: Option<u32>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse::size)]
+    pub size: Option<Size>,
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u32>,
+    /// Device, by its number or a part of its name as `dapple devices` shows them
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub device: Option<String>,
+    /// Fail rather than render on a CPU
+    #[arg(long)]
+    pub require_gpu: bool,
+    /// Render a part of the picture: columns x0 to x1 - 1, rows y0 to y1 - 1, row 0 on top
+    #[arg(long, value_name = "x0,y0,x1,y1", value_parser = parse::crop)]
+    pub crop: Option<Rect>,
+    /// Stop at the first whole pass after so many seconds of rendering, and write the picture
+    #[arg(long, value_name = "S", value_parser = parse::seconds)]
+    pub time_limit: Option<Duration>,
+    /// Render one pixel and print its values; a picture of it is written only where -o says so
+    #[arg(long, value_name = "x,y", value_parser = parse::pixel, conflicts_with = "crop")]
+    pub pixel: Option<Pixel>,
+    /// Number of the first sample of each pixel
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub first_sample: u32,
+    /// Folder of shaders that come before those of the program
+    #[arg(long, value_name = "DIR")]
+    pub shaders: Option<PathBuf>,
+    /// Change a key of the scene, such as render.max_depth=3; may be given several times
+    #[arg(long, value_name = "key=value", value_parser = parse::setting)]
+    pub set: Vec<Setting>,
+    /// Print nothing but errors (and the values that --pixel asks for)
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    /// Print events as JSON, one a line, on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+const RENDER_HELP: &str = "Ctrl-C, SIGTERM and --time-limit end the render at a whole pass over the picture and \
+    write it. A second Ctrl-C quits at once.\n\
+    DAPPLE_VALIDATION=1 loads the Vulkan validation layer and takes each of its messages as an error.";
+
+/// `dapple devices`.
+#[derive(Debug, ClapArgs)]
+pub struct DevicesArgs {
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `dapple check`.
+#[derive(Debug, ClapArgs)]
+pub struct CheckArgs {
+    /// The scene, a TOML file
+    pub scene: PathBuf,
+    /// Change a key of the scene, such as render.max_depth=3; may be given several times
+    #[arg(long, value_name = "key=value", value_parser = parse::setting)]
+    pub set: Vec<Setting>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_description_of_the_arguments_is_sound() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn contradictions_are_refused() {
+        let parse = |words: &str| Args::try_parse_from(words.split(' '));
+        assert!(parse("dapple render a.toml --pixel 1,2 --spp 4 --set a.b=1 --set c.d=2").is_ok());
+        for wrong in ["--pixel 1,2 --crop 0,0,1,1", "--quiet --json", "--spp 0", "--spp 1048577", "--seed -1"]
+        {
+            assert!(parse(&format!("dapple render a.toml {wrong}")).is_err(), "{wrong}");
+        }
+    }
+}

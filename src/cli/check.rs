@@ -1,0 +1,104 @@
+//! `dapple check`: what is in a scene, without a device.
+
+use super::args::CheckArgs;
+use super::console::Console;
+use super::devices::bytes_text;
+use dapple::Result;
+use dapple::import::{Warning, read_scene};
+use dapple::prepare::{self, Prepared};
+use dapple::scene::Scene;
+use serde::Serialize;
+use std::fmt::Write;
+
+/// The counts of a scene.
+#[derive(Debug, Serialize)]
+struct Contents {
+    /// Columns and rows of the whole picture.
+    size: [u32; 2],
+    /// The pixels that are rendered: x0, y0, x1, y1.
+    window: [u32; 4],
+    spp: u32,
+    seed: u32,
+    meshes: usize,
+    /// On the device: a mesh counts once however often it is placed, a quad is two.
+    triangles: usize,
+    instances: usize,
+    shapes: usize,
+    textures: usize,
+    images: usize,
+    materials: usize,
+    /// Rows of the table of lights: those of the scene, shining shapes and triangles.
+    lights: usize,
+    environment: bool,
+    bvh_nodes: usize,
+    stack_entries: u32,
+    device_bytes: u64,
+    warnings: Vec<String>,
+}
+
+/// Reads, prepares, prints.
+pub fn run(args: &CheckArgs, console: &mut Console) -> Result<()> {
+    let (scene, warnings) = read_scene(&args.scene, &args.set)?;
+    if !args.json {
+        warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
+    }
+    let prepared = prepare::prepare(&scene)?;
+    let contents = Contents::of(&scene, &prepared, &warnings);
+    if args.json {
+        console.event(&contents);
+    } else {
+        console.result(&contents.words());
+    }
+    Ok(())
+}
+
+impl Contents {
+    fn of(scene: &Scene, prepared: &Prepared, warnings: &[Warning]) -> Self {
+        let window = scene.film.window();
+        Self {
+            size: [scene.film.width, scene.film.height],
+            window: [window.x0, window.y0, window.x1, window.y1],
+            spp: scene.render.spp,
+            seed: scene.render.seed,
+            meshes: scene.meshes.len(),
+            triangles: prepared.triangles.len(),
+            instances: scene.instances.len(),
+            shapes: scene.shapes.len(),
+            textures: scene.textures.len(),
+            images: scene.images.len(),
+            materials: scene.materials.len(),
+            lights: prepared.lights.len(),
+            environment: scene.environment.is_some(),
+            bvh_nodes: prepared.nodes.len(),
+            stack_entries: prepared.stack_entries,
+            device_bytes: prepared.bytes(),
+            warnings: warnings.iter().map(Warning::to_string).collect(),
+        }
+    }
+
+    fn words(&self) -> String {
+        let [x0, y0, x1, y1] = self.window;
+        let rows = [
+            ("film", format!("{} x {} pixels, window {x0},{y0},{x1},{y1}", self.size[0], self.size[1])),
+            ("samples", format!("{} a pixel, seed {}", self.spp, self.seed)),
+            ("meshes", self.meshes.to_string()),
+            ("triangles", self.triangles.to_string()),
+            ("instances", self.instances.to_string()),
+            ("shapes", self.shapes.to_string()),
+            ("textures", self.textures.to_string()),
+            ("images", self.images.to_string()),
+            ("materials", self.materials.to_string()),
+            ("lights", self.lights.to_string()),
+            ("environment", if self.environment { "yes" } else { "no" }.to_owned()),
+            ("BVH nodes", self.bvh_nodes.to_string()),
+            ("stack entries", self.stack_entries.to_string()),
+            ("on the device", bytes_text(self.device_bytes)),
+            ("warnings", self.warnings.len().to_string()),
+        ];
+        let mut out = String::new();
+        for (name, value) in rows {
+            _ = writeln!(out, "{name:<14} {value}");
+        }
+        out.trim_end().to_owned()
+    }
+}

@@ -1,0 +1,85 @@
+//! What `--json` prints, one object a line.
+
+use super::stop::Reason;
+use dapple::Place;
+use serde::Serialize;
+
+/// The events, told apart by the key `event`. Numbers that JSON cannot hold (an infinite depth) are null.
+#[derive(Debug, Serialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+pub enum Event {
+    /// The device is open and the scene is read.
+    Start {
+        device: String,
+        driver: String,
+        #[serde(rename = "type")]
+        kind: &'static str,
+        /// Columns and rows of the whole picture.
+        size: [u32; 2],
+        /// The pixels that are rendered: x0, y0, x1, y1.
+        window: [u32; 4],
+        spp: u32,
+        first_sample: u32,
+        seed: u32,
+        file: Option<String>,
+    },
+    /// Something doubtful in the scene.
+    Warning { message: String, place: Where },
+    /// What is known to be rendered; several times a second at most.
+    Progress {
+        /// Samples that every pixel has.
+        spp: u32,
+        /// Share of the work, 0..=1.
+        done: f64,
+        samples: u64,
+        samples_per_second: f64,
+        elapsed_s: f64,
+    },
+    /// The values of `--pixel`.
+    Pixel {
+        x: u32,
+        y: u32,
+        rgb: [f32; 3],
+        alpha: f32,
+        albedo: [f32; 3],
+        normal: [f32; 3],
+        depth: Option<f32>,
+        variance: [f32; 3],
+        samples: u32,
+    },
+    /// The picture is written.
+    Done {
+        file: Option<String>,
+        spp: u32,
+        seconds: f64,
+        /// Samples that were not finite.
+        left_out: u64,
+        /// Samples that were brighter than the film can hold.
+        clamped: u64,
+        /// Why the render ended before all samples were done.
+        stopped_by: Option<Reason>,
+    },
+    /// The end, with exit code 1 or 2.
+    Error {
+        message: String,
+        help: Option<String>,
+        place: Option<Where>,
+        /// The command that shows the failure again.
+        repeat: Option<String>,
+    },
+}
+
+/// A place in a file; 0 = unknown.
+#[derive(Debug, Serialize)]
+pub struct Where {
+    file: String,
+    line: u32,
+    column: u32,
+}
+
+impl From<&Place> for Where {
+    fn from(place: &Place) -> Self {
+        let file = place.file.to_string_lossy().into_owned();
+        Self { file, line: place.line, column: place.column }
+    }
+}

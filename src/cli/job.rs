@@ -1,0 +1,159 @@
+//! The checked job: the scene is read and changed, the target is known to be writable.
+
+use super::args::RenderArgs;
+use super::parse::{Pixel, Size};
+use dapple::film::{self, MAX_SAMPLES};
+use dapple::gpu::DeviceChoice;
+use dapple::import::{Warning, read_scene};
+use dapple::scene::{Film, Rect, Scene};
+use dapple::shader::{CacheOptions, Compiler, Sources};
+use dapple::{Error, Result};
+use std::path::{Path, PathBuf};
+
+/// All that a render needs.
+pub struct Job {
+    pub scene: Scene,
+    pub warnings: Vec<Warning>,
+    /// Where the picture goes; none = only the values of a pixel are wanted.
+    pub target: Option<PathBuf>,
+    /// The one pixel whose values are printed.
+    pub pixel: Option<Pixel>,
+    pub first_sample: u32,
+    pub device: DeviceChoice,
+    pub compiler: Compiler,
+}
+
+impl Job {
+    /// Looks at the world: the target first, because that is quick, then the scene and all that it names.
+    pub fn new(args: &RenderArgs) -> Result<Self> {
+        let target = target(args)?;
+        let sources = match &args.shaders {
+            Some(folder) => Sources::folder(folder)?,
+            None => Sources::embedded(),
+        };
+        let (mut scene, warnings) = read_scene(&args.scene, &args.set)?;
+        set_window(&mut scene.film, args.size, args.crop, args.pixel)?;
+        scene.render.spp = args.spp.unwrap_or(scene.render.spp);
+        scene.render.seed = args.seed.unwrap_or(scene.render.seed);
+        check_samples(args.first_sample, scene.render.spp)?;
+        Ok(Self {
+            scene,
+            warnings,
+            target,
+            pixel: args.pixel,
+            first_sample: args.first_sample,
+            device: DeviceChoice {
+                wanted: args.device.clone(),
+                require_gpu: args.require_gpu,
+                validation: std::env::var_os("DAPPLE_VALIDATION").is_some_and(|value| value == "1"),
+            },
+            compiler: Compiler::new(sources, CacheOptions::from_environment()),
+        })
+    }
+
+    /// The target, as text.
+    pub fn file(&self) -> Option<String> {
+        self.target.as_ref().map(|file| file.to_string_lossy().into_owned())
+    }
+}
+
+/// The file that the picture goes to, checked.
+fn target(args: &RenderArgs) -> Result<Option<PathBuf>> {
+    let target = match &args.output {
+        Some(file) => file.clone(),
+        None if args.pixel.is_some() => return Ok(None),
+        None => default_target(&args.scene)?,
+    };
+    film::check_target(&target)?;
+    Ok(Some(target))
+}
+
+/// Name of the scene with `.png`, in the current folder.
+fn default_target(scene: &Path) -> Result<PathBuf> {
+    let stem = scene.file_stem().ok_or_else(|| {
+        Error::scene("this names no scene file").in_file(scene).help("give the path of a TOML file")
+    })?;
+    let mut name = stem.to_owned();
+    name.push(".png");
+    Ok(PathBuf::from(name))
+}
+
+/// Changes size and window, and sees to it that the window is inside the picture.
+fn set_window(film: &mut Film, size: Option<Size>, crop: Option<Rect>, pixel: Option<Pixel>) -> Result<()> {
+    if let Some(Size { width, height }) = size {
+        (film.width, film.height) = (width, height);
+    }
+    let outside = |x1: u32, y1: u32| x1 > film.width || y1 > film.height;
+    let refuse = |what: String| {
+        Error::scene(format!("{what} is not inside the picture of {} x {} pixels", film.width, film.height))
+    };
+    let shown = |r: Rect| format!("{},{},{},{}", r.x0, r.y0, r.x1, r.y1);
+    if let Some(Pixel { x, y }) = pixel {
+        if x >= film.width || y >= film.height {
+            return Err(refuse(format!("--pixel {x},{y}")).help("the top left pixel is 0,0"));
+        }
+        film.crop = Some(Rect { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+    } else if let Some(rect) = crop {
+        if outside(rect.x1, rect.y1) {
+            return Err(refuse(format!("--crop {}", shown(rect)))
+                .help("x1 and y1 are the first column and row that are left out"));
+        }
+        film.crop = Some(rect);
+    } else if let Some(rect) = film.crop
+        && outside(rect.x1, rect.y1)
+    {
+        return Err(refuse(format!("the crop {} of the scene", shown(rect))).help("give another with --crop"));
+    }
+    Ok(())
+}
+
+fn check_samples(first_sample: u32, spp: u32) -> Result<()> {
+    if spp > MAX_SAMPLES {
+        return Err(Error::scene(format!("{spp} samples a pixel, the film holds at most {MAX_SAMPLES}"))
+            .help("give fewer with --spp"));
+    }
+    if first_sample.checked_add(spp).is_none() {
+        return Err(Error::scene(format!("sample {first_sample} + {spp} has no 32-bit number"))
+            .help("give a smaller --first-sample"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CROP: Rect = Rect { x0: 1, y0: 2, x1: 3, y1: 4 };
+
+    fn film(crop: Option<Rect>) -> Film {
+        Film { width: 8, height: 8, crop, ..Film::default() }
+    }
+
+    #[test]
+    fn the_window_is_checked_against_the_new_size() {
+        let mut f = film(None);
+        set_window(&mut f, Some(Size { width: 3, height: 4 }), Some(CROP), None).unwrap();
+        assert_eq!((f.width, f.height, f.crop), (3, 4, Some(CROP)));
+        let small = Some(Size { width: 2, height: 4 });
+        set_window(&mut film(None), small, Some(CROP), None).unwrap_err();
+        set_window(&mut film(Some(CROP)), small, None, None).unwrap_err();
+        set_window(&mut film(None), None, None, Some(Pixel { x: 8, y: 0 })).unwrap_err();
+        // A pixel replaces the crop of the scene.
+        let mut f = film(Some(CROP));
+        set_window(&mut f, small, None, Some(Pixel { x: 0, y: 0 })).unwrap();
+        assert_eq!(f.crop, Some(Rect { x0: 0, y0: 0, x1: 1, y1: 1 }));
+    }
+
+    #[test]
+    fn the_picture_is_named_after_the_scene() {
+        assert_eq!(default_target(Path::new("a/b.c.toml")).unwrap(), Path::new("b.c.png"));
+        default_target(Path::new("..")).unwrap_err();
+    }
+
+    #[test]
+    fn sample_numbers_fit() {
+        check_samples(5, MAX_SAMPLES).unwrap();
+        check_samples(0, MAX_SAMPLES + 1).unwrap_err();
+        check_samples(u32::MAX, 1).unwrap_err();
+    }
+}

@@ -1,0 +1,83 @@
+//! The command line: what the user typed ([`args`]) → the checked job ([`job`]) → the library.
+//!
+//! Results go to stdout, words about them to stderr. Exit codes: 0 done, 1 the work failed, 2 bad usage or scene,
+//! 130 a second Ctrl-C.
+
+mod args;
+mod bench;
+mod check;
+mod console;
+mod devices;
+mod event;
+mod job;
+mod parse;
+mod pixel;
+mod render;
+mod repeat;
+mod report;
+mod stop;
+mod version;
+
+use args::{Args, Command};
+use clap::{CommandFactory, Parser};
+use console::Console;
+use dapple::{Error, ErrorKind};
+use std::process::ExitCode;
+
+/// What a command failed with.
+struct Failure {
+    error: Error,
+    /// The command that shows the failure again, when there is a shorter one than the user's.
+    repeat: Option<String>,
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self { error, repeat: None }
+    }
+}
+
+/// Reads the arguments, does what they say, and tells how it went.
+pub fn run() -> ExitCode {
+    let args = Args::parse();
+    let (mut console, outcome) = match args.command {
+        _ if args.version => with(Console::new(false, false), |c| Ok(version::run(c)?)),
+        Some(Command::Render(args)) => with(Console::new(args.json, args.quiet), |c| render::run(&args, c)),
+        Some(Command::Devices(args)) => {
+            with(Console::new(args.json, false), |c| Ok(devices::run(args.json, c)?))
+        }
+        Some(Command::Check(args)) => with(Console::new(args.json, false), |c| Ok(check::run(&args, c)?)),
+        Some(Command::Bench(args)) => with(Console::new(args.json, false), |c| Ok(bench::run(&args, c)?)),
+        None => {
+            console::say(&Args::command().render_help().to_string());
+            return ExitCode::from(USAGE);
+        }
+    };
+    match outcome.and_then(|()| Ok(console.finish()?)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            let code = exit_code(failure.error.kind);
+            report::print(&failure, &mut console);
+            code
+        }
+    }
+}
+
+/// Exit code of wrong arguments, and of wrong scenes.
+const USAGE: u8 = 2;
+
+fn exit_code(kind: ErrorKind) -> ExitCode {
+    match kind {
+        ErrorKind::Scene => ExitCode::from(USAGE),
+        ErrorKind::Device | ErrorKind::Output => ExitCode::from(1),
+    }
+}
+
+/// Runs a command with its console and keeps both ends.
+fn with(
+    mut console: Console,
+    command: impl FnOnce(&mut Console) -> Result<(), Failure>,
+) -> (Console, Result<(), Failure>) {
+    let outcome = command(&mut console);
+    (console, outcome)
+}

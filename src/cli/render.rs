@@ -1,0 +1,220 @@
+//! `dapple render`.
+
+use super::args::RenderArgs;
+use super::console::{Console, Step};
+use super::event::{Event, Where};
+use super::job::Job;
+use super::stop::{Reason, Stop};
+use super::{Failure, pixel, repeat};
+use dapple::film::{self, Film};
+use dapple::gpu::{DeviceType, Gpu};
+use dapple::render::{Next, Options, Progress, Renderer};
+use dapple::{Error, Result};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Time between two events of progress.
+const EVENT_PERIOD: Duration = Duration::from_millis(250);
+
+/// Renders what the arguments say.
+pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
+    let stop = Stop::watch(args.time_limit)?;
+    let mut job = Job::new(args)?;
+    for warning in &job.warnings {
+        if console.json() {
+            let place = Where::from(&warning.place);
+            console.event(&Event::Warning { message: warning.message.clone(), place });
+        } else {
+            console.note(&format!("warning: {warning}"));
+        }
+    }
+    let gpu = Arc::new(Gpu::open(&job.device)?);
+    let info = gpu.info();
+    if info.kind == DeviceType::Cpu {
+        console.note(&format!("rendering on the CPU: {}", info.name));
+    }
+    announce(&job, &gpu, console);
+    let renderer = Renderer::open(gpu.clone(), &mut job.compiler, &job.scene, Options::of(&gpu))
+        .map_err(|error| in_shaders(error, args.shaders.as_deref()))?;
+    let start = Instant::now();
+    let mut watch = Watch::new(&job, &stop, console);
+    let outcome = renderer.render(job.first_sample, job.scene.render.spp, &mut |p| watch.step(p));
+    let (sound, reason) = (watch.sound, watch.reason);
+    console.clear_bar();
+    let film = outcome.map_err(|error| Failure {
+        error,
+        repeat: Some(repeat::from_sample(job.first_sample.saturating_add(sound.spp))),
+    })?;
+    deliver(&job, &film, reason, start.elapsed(), console)?;
+    Ok(())
+}
+
+fn announce(job: &Job, gpu: &Gpu, console: &mut Console) {
+    let (film, info) = (&job.scene.film, gpu.info());
+    let window = film.window();
+    console.event(&Event::Start {
+        device: info.name.clone(),
+        driver: info.driver.clone(),
+        kind: super::devices::kind_name(info.kind),
+        size: [film.width, film.height],
+        window: [window.x0, window.y0, window.x1, window.y1],
+        spp: job.scene.render.spp,
+        first_sample: job.first_sample,
+        seed: job.scene.render.seed,
+        file: job.file(),
+    });
+}
+
+/// Errors of the user's shaders name files in the folder of `--shaders`: adds the folder where the file is there.
+fn in_shaders(mut error: Error, folder: Option<&Path>) -> Error {
+    if let (Some(place), Some(folder)) = (&mut error.place, folder) {
+        let file = folder.join(&place.file);
+        if file.is_file() {
+            place.file = file;
+        }
+    }
+    error
+}
+
+/// Follows a render and tells it when to stop.
+struct Watch<'a> {
+    stop: &'a Stop,
+    console: &'a mut Console,
+    spp: u32,
+    /// Samples of the whole work.
+    work: f64,
+    told: Option<Duration>,
+    last: Reached,
+    /// What is certainly rendered without an error.
+    sound: Reached,
+    reason: Option<Reason>,
+}
+
+/// How far a render is: samples of each pixel, share of the work.
+#[derive(Debug, Clone, Copy, Default)]
+struct Reached {
+    spp: u32,
+    done: f64,
+}
+
+impl<'a> Watch<'a> {
+    fn new(job: &Job, stop: &'a Stop, console: &'a mut Console) -> Self {
+        let spp = job.scene.render.spp;
+        let work = job.scene.film.window().area() as f64 * f64::from(spp);
+        let nothing = Reached::default();
+        Self { stop, console, spp, work, told: None, last: nothing, sound: nothing, reason: None }
+    }
+
+    fn step(&mut self, progress: &Progress) -> Next {
+        // The slice of this step was only submitted; the ones before it are known to be done.
+        self.sound = self.last;
+        self.last = Reached { spp: progress.spp, done: progress.done };
+        self.reason = self.reason.or_else(|| self.stop.reason(progress.elapsed));
+        self.tell(progress.elapsed);
+        if self.reason.is_some() { Next::Stop } else { Next::Continue }
+    }
+
+    fn tell(&mut self, elapsed: Duration) {
+        let Reached { spp, done } = self.sound;
+        let seconds = elapsed.as_secs_f64();
+        let samples = done * self.work;
+        let rate = samples / seconds.max(1e-9);
+        let (left, stopping) = (self.left(elapsed), self.reason.is_some());
+        self.console.bar(&Step { spp, of: self.spp, done, rate, left, stopping });
+        if self.told.is_none_or(|told| elapsed >= told + EVENT_PERIOD) {
+            self.told = Some(elapsed);
+            self.console.event(&Event::Progress {
+                spp,
+                done,
+                samples: samples.round() as u64,
+                samples_per_second: rate,
+                elapsed_s: seconds,
+            });
+        }
+    }
+
+    /// Time to the end of the work or to the time limit, whichever comes first.
+    fn left(&self, elapsed: Duration) -> Option<Duration> {
+        let factor = (1.0 - self.sound.done).max(0.0) / self.sound.done;
+        let work = Duration::try_from_secs_f64(elapsed.as_secs_f64() * factor).ok();
+        match (work, self.stop.left(elapsed)) {
+            (Some(work), Some(limit)) => Some(work.min(limit)),
+            (work, limit) => work.or(limit),
+        }
+    }
+}
+
+/// What came out of a render.
+struct Summary {
+    spp: u32,
+    wanted: u32,
+    /// Samples of all pixels, those that were left out among them.
+    samples: u64,
+    left_out: u64,
+    clamped: u64,
+    stopped_by: Option<Reason>,
+    seconds: f64,
+}
+
+/// Writes the picture, prints the pixel, and says what was done.
+fn deliver(
+    job: &Job,
+    film: &Film,
+    reason: Option<Reason>,
+    took: Duration,
+    console: &mut Console,
+) -> Result<()> {
+    let picture = film.resolve();
+    if let Some(file) = &job.target {
+        film::write(file, &picture, &job.scene.film, &film.meta())?;
+    }
+    if let Some(place) = job.pixel {
+        pixel::print(&picture, place, console)?;
+    }
+    let left_out = film.left_out();
+    let samples = picture.samples.iter().map(|&n| u64::from(n)).sum::<u64>() + left_out;
+    let wanted = job.scene.render.spp;
+    // A signal during the last pass stops nothing.
+    let whole = job.scene.film.window().area() * u64::from(wanted);
+    let summary = Summary {
+        spp: film.samples_per_pixel(),
+        wanted,
+        samples,
+        left_out,
+        clamped: film.clamped(),
+        stopped_by: reason.filter(|_| samples < whole),
+        seconds: took.as_secs_f64(),
+    };
+    summary.tell(job, console);
+    Ok(())
+}
+
+impl Summary {
+    fn tell(&self, job: &Job, console: &mut Console) {
+        let Self { spp, wanted, samples, left_out, clamped, stopped_by, seconds } = *self;
+        let file = job.file();
+        if console.json() {
+            console.event(&Event::Done { file, spp, seconds, left_out, clamped, stopped_by });
+            return;
+        }
+        if left_out > 0 {
+            console
+                .note(&format!("warning: {left_out} of {samples} samples were not finite and are left out"));
+        }
+        if clamped > 0 {
+            console.note(&format!(
+                "warning: {clamped} of {samples} samples were brighter than the film can hold and are clamped"
+            ));
+        }
+        if let Some(reason) = stopped_by {
+            console.note(&format!("stopped by {reason} after {spp} of {wanted} samples a pixel"));
+        }
+        if let Some(file) = file {
+            let window = job.scene.film.window();
+            let (width, height) = (window.width(), window.height());
+            console
+                .note(&format!("{file}: {width} x {height} pixels, {spp} samples a pixel, {seconds:.1} s"));
+        }
+    }
+}

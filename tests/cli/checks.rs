@@ -1,0 +1,80 @@
+//! The commands that render nothing.
+
+use crate::Room;
+use serde_json::{Value, json};
+
+#[test]
+fn check_tells_what_is_in_a_scene() {
+    let room = Room::new();
+    let ran = room.run("check scene.toml").code(0);
+    assert_eq!(ran.err, "");
+    for row in
+        ["film           16 x 12 pixels", "samples        8 a pixel", "triangles      2", "warnings       0"]
+    {
+        assert!(ran.out.contains(row), "no `{row}` in {}", ran.out);
+    }
+    let ran = room.run("check scene.toml --json --set film.size=[4,3]").code(0);
+    let contents: Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(contents["size"], json!([4, 3]));
+    assert_eq!(contents["window"], json!([0, 0, 4, 3]));
+    // Quad, sphere, and the sphere of the light.
+    assert_eq!(contents["shapes"], 3);
+    assert_eq!((&contents["triangles"], &contents["lights"]), (&json!(2), &json!(1)));
+    assert!(contents["device_bytes"].as_u64().unwrap() > 0);
+    assert_eq!(contents["warnings"], json!([]));
+    assert_eq!(room.names(), ["scene.toml"]);
+}
+
+#[test]
+fn check_needs_no_driver() {
+    let room = Room::new();
+    let ran = room
+        .program("check scene.toml")
+        .env("VK_DRIVER_FILES", "/no")
+        .env("VK_ICD_FILENAMES", "/no")
+        .output();
+    assert!(ran.unwrap().status.success());
+}
+
+#[test]
+fn devices_are_listed_with_the_variables_of_the_loader() {
+    let room = Room::new();
+    let output = room.program("devices").env("VK_LOADER_DEBUG", "none").output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    for word in ["0: ", "driver", "Vulkan", "storage buffer", "VK_LOADER_DEBUG=none"] {
+        assert!(text.contains(word), "no `{word}` in {text}");
+    }
+    let output = room.program("devices --json").env("VK_LOADER_DEBUG", "none").output().unwrap();
+    let list: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(list["variables"]["VK_LOADER_DEBUG"], "none");
+    let device = &list["devices"][0];
+    assert_eq!(device["index"], 0);
+    assert!(device["limits"]["storage_buffer_bytes"].as_u64().unwrap() >= 1 << 27);
+    assert!(!device["name"].as_str().unwrap().is_empty());
+}
+
+#[test]
+fn the_version_names_the_driver() {
+    let room = Room::new();
+    for flag in ["--version", "-V"] {
+        let out = room.run(flag).code(0).out;
+        assert!(out.starts_with(concat!("dapple ", env!("CARGO_PKG_VERSION"), "\ndevice: ")), "{out}");
+        assert!(out.contains(", driver "), "{out}");
+    }
+}
+
+#[test]
+fn a_machine_without_a_driver_is_told_so() {
+    let room = Room::new();
+    let run = |arguments: &str| {
+        let mut command = room.program(arguments);
+        // The loader takes the first where it knows it, the second in older versions.
+        command.env("VK_DRIVER_FILES", "/nowhere.json").env("VK_ICD_FILENAMES", "/nowhere.json");
+        crate::Ran::from(command.env_remove("VK_ADD_DRIVER_FILES").output().unwrap())
+    };
+    assert!(run("--version").code(0).out.contains("no Vulkan driver on this machine"));
+    let ran = run("devices").code(1).err_has("error: no Vulkan driver on this machine");
+    assert!(ran.out.contains("VK_DRIVER_FILES=/nowhere.json"), "{}", ran.out);
+    assert_eq!(run("devices --json").code(1).event("error")["message"], "no Vulkan driver on this machine");
+    run("render scene.toml").code(1).err_has("error: no Vulkan driver on this machine");
+}

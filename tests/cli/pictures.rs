@@ -1,0 +1,166 @@
+//! What comes out of `dapple render`.
+
+use crate::{Planes, Ran, Room, png_size};
+
+#[test]
+fn a_png_is_named_after_the_scene() {
+    let room = Room::new();
+    let ran = room.run("render scene.toml").code(0).err_has("scene.png: 16 x 12 pixels, 8 samples a pixel");
+    assert_eq!(ran.out, "");
+    assert_eq!(png_size(&room.path("scene.png")), (16, 12));
+    assert_eq!(room.names(), ["scene.png", "scene.toml"]);
+}
+
+#[test]
+fn the_extension_chooses_exr() {
+    let room = Room::new();
+    room.run("render scene.toml -o a.EXR").code(0);
+    let exr = Planes::read(&room.path("a.EXR"));
+    assert_eq!((exr.width, exr.height), (16, 12));
+    assert!(exr.plane("samples").iter().all(|&n| n == 8.0));
+    assert!(exr.plane("G").iter().all(|&g| g.is_finite() && g > 0.0));
+}
+
+#[test]
+fn the_same_command_gives_the_same_bytes() {
+    let room = Room::new();
+    for name in ["a.exr", "b.exr", "a.png", "b.png"] {
+        room.run(&format!("render scene.toml -o {name} --spp 8")).code(0);
+    }
+    room.run("render scene.toml -o c.exr --seed 7").code(0);
+    let bytes = |name: &str| std::fs::read(room.path(name)).unwrap();
+    assert_eq!(bytes("a.exr"), bytes("b.exr"));
+    assert_eq!(bytes("a.png"), bytes("b.png"));
+    assert_ne!(bytes("a.exr"), bytes("c.exr"), "the seed changes nothing");
+}
+
+#[test]
+fn first_sample_continues_where_another_render_ended() {
+    let room = Room::new();
+    room.run("render scene.toml -o all.exr --spp 8 --quiet").code(0);
+    room.run("render scene.toml -o a.exr --spp 4 --quiet").code(0);
+    room.run("render scene.toml -o b.exr --spp 4 --first-sample 4 --quiet").code(0);
+    let [all, a, b] = ["all.exr", "a.exr", "b.exr"].map(|name| Planes::read(&room.path(name)));
+    let (all, a, b) = (all.plane("R"), a.plane("R"), b.plane("R"));
+    assert_ne!(a, b);
+    for i in 0..all.len() {
+        // Means of four halve the mean of eight exactly but for the rounding of each to a float.
+        let error = (all[i] - 0.5 * (a[i] + b[i])).abs();
+        assert!(error <= 2.0 * f32::EPSILON * all[i], "pixel {i}: off by {error}");
+    }
+}
+
+#[test]
+fn size_and_crop_change_the_picture() {
+    let room = Room::new();
+    room.run("render scene.toml --size 24x10 -o size.png --spp 1").code(0);
+    assert_eq!(png_size(&room.path("size.png")), (24, 10));
+    room.run("render scene.toml -o full.exr").code(0);
+    room.run("render scene.toml -o crop.exr --crop 3,2,13,11").code(0);
+    let [full, crop] = ["full.exr", "crop.exr"].map(|name| Planes::read(&room.path(name)));
+    assert_eq!((crop.width, crop.height), (10, 9));
+    for y in 0..crop.height {
+        let at = (y + 2) * full.width + 3;
+        assert_eq!(crop.plane("R")[y * 10..y * 10 + 10], full.plane("R")[at..at + 10], "row {y}");
+    }
+}
+
+#[test]
+fn a_pixel_is_that_of_the_whole_picture() {
+    let room = Room::new();
+    room.run("render scene.toml -o full.exr").code(0);
+    let full = Planes::read(&room.path("full.exr"));
+    // On the sphere, and in the sky, where depth is infinite.
+    for (x, y) in [(8, 5), (0, 0)] {
+        let words = room.run(&format!("render scene.toml --pixel {x},{y} --quiet")).code(0);
+        let ran = room.run(&format!("render scene.toml --pixel {x},{y} --json")).code(0);
+        let (event, at) = (ran.event("pixel"), y * full.width + x);
+        let number = |value: &serde_json::Value| value.as_f64().unwrap() as f32;
+        let triples = [
+            ("rgb", ["R", "G", "B"]),
+            ("albedo", ["albedo.R", "albedo.G", "albedo.B"]),
+            ("normal", ["normal.X", "normal.Y", "normal.Z"]),
+            ("variance", ["variance.R", "variance.G", "variance.B"]),
+        ];
+        for (key, planes) in triples {
+            let expected = full.three(planes, at);
+            assert_eq!([0, 1, 2].map(|c| number(&event[key][c])), expected, "{key}");
+            assert_eq!(word_values(&words, key), expected, "{key}");
+        }
+        assert_eq!(event["samples"], 8);
+        let depth = full.plane("depth.Z")[at];
+        assert_eq!(word_values(&words, "depth"), [depth]);
+        assert_eq!(event["depth"].as_f64().map_or(f32::INFINITY, |d| d as f32), depth);
+    }
+    assert_eq!(room.names(), ["full.exr", "scene.toml"], "a picture was not asked for");
+    room.run("render scene.toml --pixel 8,5 --quiet -o pixel.png").code(0);
+    assert_eq!(png_size(&room.path("pixel.png")), (1, 1));
+}
+
+/// The numbers of a row of the text of `--pixel`.
+fn word_values(ran: &Ran, key: &str) -> Vec<f32> {
+    let row = ran.out.lines().find(|line| line.starts_with(key)).unwrap();
+    row.split_whitespace().skip(1).map(|word| word.parse().unwrap()).collect()
+}
+
+#[test]
+fn settings_change_the_scene() {
+    let room = Room::new();
+    let ran = room.run("render scene.toml --set film.size=[5,4] --set render.spp=3 --json").code(0);
+    assert_eq!(ran.event("start")["size"], serde_json::json!([5, 4]));
+    assert_eq!(ran.event("done")["spp"], 3);
+    assert_eq!(png_size(&room.path("scene.png")), (5, 4));
+}
+
+#[test]
+fn events_tell_the_whole_render() {
+    let room = Room::new();
+    let ran = room.run("render scene.toml --json -o a.png --seed 3").code(0);
+    let kinds: Vec<String> =
+        ran.events().iter().map(|event| event["event"].as_str().unwrap().to_owned()).collect();
+    assert_eq!(kinds.first().unwrap(), "start");
+    assert_eq!(kinds.last().unwrap(), "done");
+    assert!(kinds.iter().any(|kind| kind == "progress"));
+    let start = ran.event("start");
+    assert!(!start["device"].as_str().unwrap().is_empty() && !start["driver"].as_str().unwrap().is_empty());
+    assert_eq!(start["seed"], 3);
+    let done = ran.event("done");
+    assert_eq!((&done["file"], &done["spp"]), (&"a.png".into(), &8.into()));
+    assert_eq!((&done["left_out"], &done["clamped"]), (&0.into(), &0.into()));
+    assert!(done["seconds"].as_f64().unwrap() > 0.0 && done["stopped_by"].is_null());
+}
+
+#[test]
+fn quiet_says_nothing() {
+    let room = Room::new();
+    room.write("scene.toml", &scene_with_warning());
+    let ran = room.run("render scene.toml --quiet").code(0);
+    assert_eq!((ran.out.as_str(), ran.err.as_str()), ("", ""));
+    room.run("render scene.toml").code(0).err_has("warning: scene.toml:");
+    let ran = room.run("render scene.toml --json").code(0);
+    assert_eq!(ran.event("warning")["place"]["file"], "scene.toml");
+}
+
+/// A material that nothing uses.
+fn scene_with_warning() -> String {
+    format!("{}\n[material.unused]\nkind = \"diffuse\"\n", crate::SCENE)
+}
+
+#[test]
+fn samples_that_are_not_finite_are_counted() {
+    let room = Room::new();
+    let sound = include_str!("../../shaders/stages/film.comp");
+    let line = "vec3 radiance = path.radiance * frame.radiance_scale;";
+    assert!(sound.contains(line), "the film kernel has changed: choose another line to break");
+    std::fs::create_dir_all(room.path("shaders/stages")).unwrap();
+    room.write(
+        "shaders/stages/film.comp",
+        &sound.replace(line, "vec3 radiance = vec3(uintBitsToFloat(0x7fc00000u));"),
+    );
+    room.run("render scene.toml --shaders shaders")
+        .code(0)
+        .err_has("warning: 1536 of 1536 samples were not finite");
+    let ran = room.run("render scene.toml --shaders shaders --json").code(0);
+    assert_eq!(ran.event("done")["left_out"], 1536);
+    assert!(ran.event("done")["stopped_by"].is_null());
+}
