@@ -1,8 +1,9 @@
-//! Scenes of `../shared/reference`, built by hand in the scene language, against the pictures of pbrt-v4 and Mitsuba 3.
+//! Scenes of `../shared/reference`, built by hand in the scene language, against the pictures of pbrt-v4 and
+//! Mitsuba 3.
 //!
-//! Every test renders `tests/scenes/reference/NAME.toml` on the default device, writes `target/reference/NAME.exr`, and
-//! `NAME.png` with the picture on the left and the reference on the right, and puts both to the test of
-//! `common/compare.rs`. The noise of the picture is what its film says.
+//! Every test renders `tests/scenes/reference/NAME.toml` on the default device, writes
+//! `target/reference/NAME.exr`, and `NAME.png` with the picture on the left and the reference on the right, and
+//! puts both to the test of `common/compare.rs`. The noise of the picture is what its film says.
 //!
 //! These references show what dapple cannot render yet:
 //!
