@@ -33,10 +33,11 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec3 p = triangle.a + bary.x * ab + bary.y * ac;
     vec3 geometric = cross(ab, ac);
 
-    // uv (0,0), (1,0), (1,1) where the mesh has none
+    // uv (0,0), (1,0), (1,1) where the mesh has none; a mirrored triangle was turned round on its way into the world
+    bool turned = !to_world && instance.handedness < 0.0;
     vec2 uv0 = vec2(0.0);
-    vec2 uv1 = vec2(1.0, 0.0);
-    vec2 uv2 = vec2(1.0);
+    vec2 uv1 = turned ? vec2(1.0) : vec2(1.0, 0.0);
+    vec2 uv2 = turned ? vec2(1.0, 0.0) : vec2(1.0);
     vec3 normal = geometric;
     uint primitive = 0u;
     if (triangle.face != NONE) {
@@ -46,9 +47,11 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
             Vertex a = vertex_fetch(face.vertices.x);
             Vertex b = vertex_fetch(face.vertices.y);
             Vertex c = vertex_fetch(face.vertices.z);
-            uv0 = vec2(a.u, a.v);
-            uv1 = vec2(b.u, b.v);
-            uv2 = vec2(c.u, c.v);
+            if (instance.default_uv == 0u) {
+                uv0 = vec2(a.u, a.v);
+                uv1 = vec2(b.u, b.v);
+                uv2 = vec2(c.u, c.v);
+            }
             vec3 smoothed = a.normal + bary.x * (b.normal - a.normal) + bary.y * (c.normal - a.normal);
             if (dot(smoothed, smoothed) > 0.0) normal = smoothed;
         }

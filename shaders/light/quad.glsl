@@ -29,7 +29,7 @@ SphericalRectangle spherical_rectangle(Light light, vec3 from)
     r.y0 = dot(d, r.y);
     r.x1 = r.x0 + lx;
     r.y1 = r.y0 + ly;
-    vec4 nz = vec4(r.y0, r.x1, r.y1, r.x0) * vec4(1.0, -1.0, -1.0, 1.0);
+    vec4 nz = vec4(r.y0, r.x1, r.y1, r.x0) * vec4(-1.0, 1.0, 1.0, -1.0);
     vec4 other = vec4(r.y0, r.x1, r.y1, r.x0);
     nz = nz * inversesqrt(max(r.z0 * r.z0 + other * other, 1e-30));
     float g0 = acos(clamp(-nz.x * nz.y, -1.0, 1.0));
@@ -70,7 +70,7 @@ LightSample quad_sample_light(Light light, vec3 from, vec2 u01)
     vec3 point = light.position + at.x * light.edge_u + at.y * light.edge_v;
     vec3 normal = normalize(cross(light.edge_u, light.edge_v));
     float pdf = spherical ? 1.0 / r.solid_angle : area_to_solid_angle(light.b, from, point, normal);
-    return light_surface_point(light, from, point, normal, pdf, at);
+    return light_surface_point(light, from, point, normal, pdf, at.x * light.uv1 + at.y * light.uv2);
 }
 
 float quad_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)

@@ -7,6 +7,15 @@ float sphere_cone(float sin2_max)
     return sin2_max < 0.00068523 ? 0.5 * sin2_max : 1.0 - safe_sqrt(1.0 - sin2_max);
 }
 
+// uv where the unit normal is `n`, as in geometry/surface.glsl. The edges of a mirrored sphere have changed places.
+vec2 sphere_light_uv(Light light, vec3 n)
+{
+    vec2 across = (dot(n, light.edge_u) * light.uv1 + dot(n, light.edge_v) * light.uv2) / light.a;
+    float up = dot(n, cross(light.edge_u, light.edge_v)) / sqr(light.a);
+    float phi = atan(across.y, across.x) * INV_TWO_PI;
+    return vec2(phi < 0.0 ? phi + 1.0 : phi, 0.5 + asin(clamp(up, -1.0, 1.0)) * INV_PI);
+}
+
 LightSample sphere_sample_light(Light light, vec3 from, vec2 u01)
 {
     vec3 axis = light.position - from;
@@ -15,7 +24,7 @@ LightSample sphere_sample_light(Light light, vec3 from, vec2 u01)
     if (d2 <= sqr(radius) * 1.0001) {
         vec3 n = sphere_sample(u01);
         vec3 point = light.position + radius * n;
-        return light_surface_point(light, from, point, n, area_to_solid_angle(light.b, from, point, n), vec2(0.0));
+        return light_surface_point(light, from, point, n, area_to_solid_angle(light.b, from, point, n), sphere_light_uv(light, n));
     }
     float sin2_max = sqr(radius) / d2;
     float one_minus_cos_max = sphere_cone(sin2_max);
@@ -28,7 +37,8 @@ LightSample sphere_sample_light(Light light, vec3 from, vec2 u01)
     float phi = 2.0 * PI * u01.y;
     vec3 towards = -axis * inversesqrt(d2);
     vec3 n = basis_to_world(basis_around(towards), vec3(sin_alpha * cos(phi), sin_alpha * sin(phi), cos_alpha));
-    return light_surface_point(light, from, light.position + radius * n, n, INV_TWO_PI / one_minus_cos_max, vec2(0.0));
+    vec2 uv = sphere_light_uv(light, n);
+    return light_surface_point(light, from, light.position + radius * n, n, INV_TWO_PI / one_minus_cos_max, uv);
 }
 
 float sphere_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)

@@ -254,8 +254,8 @@ records! {
         light_stride: u32,
         /// 1 when geometry is already in world space
         in_world: u32,
-        /// room
-        spare: u32,
+        /// 1 when its mesh has no uv: (0, 0), (1, 0), (1, 1) on every triangle
+        default_uv: u32,
     }
 
     /// A material. A texture field is a reference (see TextureRef in texture/), or NONE.
@@ -344,11 +344,11 @@ records! {
         radiance: [f32; 3],
         /// texture of the radiance, or NONE
         texture: u32,
-        /// uv of the first vertex of a triangle
+        /// uv of the first vertex of a triangle, 0 for other kinds
         uv0: [f32; 2],
-        /// uv of the second vertex less the first
+        /// uv of the second vertex less the first; where edge_u goes in object space for other kinds
         uv1: [f32; 2],
-        /// uv of the third vertex less the first
+        /// uv of the third vertex less the first; where edge_v goes in object space for other kinds
         uv2: [f32; 2],
         /// room
         spare: [f32; 2],

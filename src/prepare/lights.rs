@@ -88,9 +88,13 @@ fn push_shape(scene: &Scene, index: usize, map: &Affine3A, textures: &References
     let (mut light, exitance) = surface_light(emission, textures, kind);
     light.position = Vec3::from(map.translation).to_array();
     let (x, y) = (Vec3::from(map.matrix3.x_axis), Vec3::from(map.matrix3.y_axis));
-    // Front of a mirrored shape: its normal is that of the object, not of the cross product in the world.
-    let (x, y) = if map.matrix3.determinant() < 0.0 { (y, x) } else { (x, y) };
+    // Front of a mirrored shape: its normal is that of the object, not of the cross product in the world. Its edges
+    // change places, so uv1 and uv2, which take positions on the edges to those of the object, do so too.
+    let mirrored = map.matrix3.determinant() < 0.0;
+    let (x, y) = if mirrored { (y, x) } else { (x, y) };
     (light.edge_u, light.edge_v) = (x.to_array(), y.to_array());
+    let (uv1, uv2) = if mirrored { (Vec2::Y, Vec2::X) } else { (Vec2::X, Vec2::Y) };
+    (light.uv1, light.uv2) = (uv1.to_array(), uv2.to_array());
     light.a = x.length();
     light.b = match shape.kind {
         ShapeKind::Sphere { .. } => 4.0 * PI * x.length_squared(),
@@ -129,11 +133,12 @@ fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References,
 fn triangle(mesh: &Mesh, index: usize, map: &Affine3A, emission: &Emission, textures: &References) -> Entry {
     let (mut light, exitance) = surface_light(emission, textures, LIGHT_TRIANGLE);
     let mut corners = mesh.triangles[index];
+    let mut default = [Vec2::ZERO, Vec2::X, Vec2::ONE];
     if map.matrix3.determinant() < 0.0 {
         corners.swap(1, 2);
+        default.swap(1, 2);
     }
     let [a, b, c] = corners.map(|v| map.transform_point3(mesh.positions[v as usize]));
-    let default = [Vec2::ZERO, Vec2::X, Vec2::ONE];
     let uv = |k: usize| mesh.uvs.get(corners[k] as usize).copied().unwrap_or(default[k]);
     light.position = a.to_array();
     (light.edge_u, light.edge_v) = ((b - a).to_array(), (c - a).to_array());

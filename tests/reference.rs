@@ -1,0 +1,113 @@
+//! Scenes of `../shared/reference`, built by hand in the scene language, against the pictures of pbrt-v4 and
+//! Mitsuba 3.
+//!
+//! Every test renders `tests/scenes/reference/NAME.toml` on the default device, writes
+//! `target/reference/NAME.exr`, and `NAME.png` with the picture on the left and the reference on the right, and
+//! puts both to the test of `common/compare.rs`. The noise of the picture is what its film says.
+//!
+//! These references show what dapple cannot render yet:
+//!
+//! | reference | what it needs |
+//! |---|---|
+//! | `c_uv_quadrics` | a partial sphere, uv of a cylinder |
+//! | `d_checker` | 3D checkerboards, planar, cylindrical and spherical mappings |
+//! | `e_noise`, `f_marble_dots` | procedural textures |
+//! | `g_bump`, `m_instances`, `m_bumpmap` | bump mapping |
+//! | `h_normalmap` | normal maps |
+//! | `i_alpha`, `m_mask` | cut-outs |
+//! | `n_infinite_image` | an equal-area environment |
+//! | `o_lens_dgauss`, `o_lens_wide` | lenses of several elements |
+//! | `p_equirect`, `p_ortho` | other cameras |
+//! | `q_meshes` | loop subdivision, bilinear patches |
+//! | `m_principled` | the principled BSDF |
+//! | `m_volume_texture` | 3D images |
+
+#![allow(clippy::unwrap_used, clippy::panic)] // Helpers of tests are tests too.
+mod common;
+
+use common::compare::compare;
+use common::references::{Estimate, folder, reference, rendered};
+use dapple::film::write;
+use dapple::gpu::{DeviceChoice, Gpu};
+use dapple::import::read_scene;
+use dapple::render::{Next, Options, Renderer};
+use dapple::shader::{CacheOptions, Compiler, Sources};
+use std::path::Path;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::Instant;
+
+/// The default device and a compiler, for one test at a time: a render keeps all cores busy.
+fn device() -> &'static Mutex<(Arc<Gpu>, Compiler)> {
+    static DEVICE: OnceLock<Mutex<(Arc<Gpu>, Compiler)>> = OnceLock::new();
+    DEVICE.get_or_init(|| {
+        let validation = std::env::var_os("DAPPLE_VALIDATION").is_some();
+        let gpu = Gpu::open(&DeviceChoice { validation, ..DeviceChoice::default() }).unwrap();
+        let compiler = Compiler::new(Sources::embedded(), CacheOptions::from_environment());
+        Mutex::new((Arc::new(gpu), compiler))
+    })
+}
+
+/// Renders a scene of `tests/scenes/reference` and compares it with the picture of `renderer`.
+fn check(renderer: &str, name: &str) {
+    let Some(folder) = folder().unwrap() else { return };
+    let expected = reference(&folder, renderer, name).unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = root.join("tests/scenes/reference").join(name).with_extension("toml");
+    let (scene, warnings) = read_scene(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+    // Scenes need not use all of `meshes.toml`
+    let warnings: Vec<_> =
+        warnings.iter().map(ToString::to_string).filter(|text| !text.contains("meshes.toml")).collect();
+    assert!(warnings.is_empty(), "{warnings:?}");
+
+    let mut device = device().lock().unwrap_or_else(PoisonError::into_inner);
+    let (gpu, compiler) = &mut *device;
+    let start = Instant::now();
+    let renderer = Renderer::open(gpu.clone(), compiler, &scene, Options::of(gpu)).unwrap();
+    let film = renderer.render(0, scene.render.spp, &mut |_| Next::Continue).unwrap();
+    let seconds = start.elapsed().as_secs_f64();
+    assert_eq!((film.left_out(), film.clamped()), (0, 0), "samples left out, clamped");
+
+    let out = root.join("target/reference");
+    std::fs::create_dir_all(&out).unwrap();
+    let file = out.join(name).with_extension("exr");
+    write(&file, &film.resolve(), &scene.film, &film.meta()).unwrap();
+    let picture = rendered(&file).unwrap();
+    write_beside(&out.join(name).with_extension("png"), &picture, &expected.picture);
+    let verdict = compare(&expected.picture, &picture, expected.systematic);
+    println!("{name:20} {seconds:5.1} s  {verdict}");
+    assert!(verdict.accepted(), "{name}: {verdict}");
+}
+
+/// Two pictures side by side as a PNG in sRGB, for people to look at.
+fn write_beside(path: &Path, left: &Estimate, right: &Estimate) {
+    let byte = |v: f64| {
+        let v = v.clamp(0.0, 1.0);
+        let v = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+        (255.0 * v).round() as u8
+    };
+    let mut bytes = Vec::new();
+    for y in 0..left.height.min(right.height) {
+        for side in [left, right] {
+            bytes.extend(side.mean[y * side.width..][..side.width].iter().flatten().map(|&v| byte(v)));
+        }
+    }
+    let (width, height) = (left.width + right.width, left.height.min(right.height));
+    image::save_buffer(path, &bytes, width as u32, height as u32, image::ColorType::Rgb8).unwrap();
+}
+
+/// A test for each scene.
+macro_rules! scenes {
+    ($($renderer:ident: $($name:ident)+;)+) => {
+        $($(
+            #[test]
+            fn $name() {
+                check(stringify!($renderer), stringify!($name));
+            }
+        )+)+
+    };
+}
+
+scenes! {
+    pbrt: a_cornell b_wrap j_thinlens k_softshadow l_materials n_infinite_const r_hardlights;
+    mitsuba: m_area_lights m_bitmap_wrap_filter m_cornell_saturated m_dielectric m_thinlens;
+}
