@@ -18,7 +18,7 @@ void film_add(uint at, float value)
 void film_add_radiance(uint at, uint square_at, float value)
 {
     film_add(at, value);
-    float whole = floor(value + 0.5);
+    float whole = fixed_round(value);
     uvec3 square = fixed_wide_from_float(whole * whole);
     square = fixed_wide_add(uvec3(film[square_at], film[square_at + 1u], film[square_at + 2u]), square);
     film[square_at] = square.x;
