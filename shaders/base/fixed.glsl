@@ -4,10 +4,17 @@
 // The largest magnitude that a term may have: 2^20 terms fit 64 bits, and 2^20 squares fit 96.
 const float FIXED_LIMIT = 274877906944.0; // 2^38
 
-// The nearest integer to x, |x| <= FIXED_LIMIT, in two's complement.
+// The nearest integer to x >= 0, halves upward; x + 0.5 itself may be rounded up to the next.
+float fixed_round(float x)
+{
+    float whole = floor(x);
+    return x - whole >= 0.5 ? whole + 1.0 : whole;
+}
+
+// The nearest integer to x, |x| <= FIXED_LIMIT, halves away from 0, in two's complement.
 uvec2 fixed_from_float(float x)
 {
-    float a = floor(abs(x) + 0.5);
+    float a = fixed_round(abs(x));
     float high = floor(a * (1.0 / 4294967296.0));
     uvec2 v = uvec2(uint(a - high * 4294967296.0), uint(high));
     if (x < 0.0) v = uvec2(~v.x + 1u, ~v.y + (v.x == 0u ? 1u : 0u));

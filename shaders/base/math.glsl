@@ -45,7 +45,7 @@ vec3 basis_to_local(Basis b, vec3 v) { return vec3(dot(b.x, v), dot(b.y, v), dot
 // Balance of two sampling strategies, power heuristic with exponent 2 (Veach 1997, section 9.2.4).
 float power_heuristic(float own, float other)
 {
-    float a = own * own;
-    float b = other * other;
-    return a > 0.0 ? a / (a + b) : 0.0;
+    // By the ratio: the square of a density may be beyond a float
+    float ratio = other / own;
+    return own > 0.0 ? 1.0 / (1.0 + ratio * ratio) : 0.0;
 }

@@ -58,8 +58,8 @@ uvec2 sobol_2d(uint index, uint seed)
     return uvec2(bitfieldReverse(x), bitfieldReverse(y));
 }
 
-// A permutation of 0..n (Kensler 2013: cycle-walking of a hash on the next power of two), n <= 2^16. It gives up after
-// 32 steps, which happens for less than one index in 2^32.
+// A permutation of 0..n, n <= 2^16: a hash that permutes the next power of two, walked along its cycle until it is back
+// in range (Kensler 2013). It gives up after 32 steps, which happens for less than one index in 2^32.
 uint permute(uint i, uint n, uint seed)
 {
     uint mask = n - 1u;
@@ -67,14 +67,14 @@ uint permute(uint i, uint n, uint seed)
     mask |= mask >> 2;
     mask |= mask >> 4;
     mask |= mask >> 8;
-    for (uint step = 0u; step < 32u; ++step) {
-        i = (i ^ seed) & mask;
-        i = (i * (seed | 1u)) & mask;
-        i = (i ^ (i >> 3)) & mask;
-        i = (i + (seed >> 16)) & mask;
-        i = (i * 0x6935fa69u) & mask;
-        i = (i ^ (i >> 5)) & mask;
-        i = (i * 0x303u + (seed >> 8)) & mask;
+    for (uint walk = 0u; walk < 32u; ++walk) {
+        // Rounds of steps that can be undone within the mask, each with other bits of the seed
+        uint bits = seed;
+        for (uint turn = 0u; turn < 4u; ++turn) {
+            i = ((i ^ bits) * ((bits >> 15) | 1u)) & mask;
+            i ^= i >> (1u + (turn & 1u));
+            bits = ((bits >> 9) | (bits << 23)) * 0x6935fa69u;
+        }
         if (i < n) break;
     }
     return i % n;

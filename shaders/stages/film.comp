@@ -27,7 +27,7 @@ void add_sample(inout PixelSums sums, uint slot)
     }
     vec3 limited = clamp(radiance, vec3(0.0), vec3(FIXED_LIMIT));
     if (limited != radiance) sums.clamped += 1u;
-    vec3 whole = floor(limited + 0.5);
+    vec3 whole = vec3(fixed_round(limited.x), fixed_round(limited.y), fixed_round(limited.z));
     for (int c = 0; c < 3; ++c) {
         sums.radiance[c] = fixed_add(sums.radiance[c], fixed_from_float(whole[c]));
         sums.squares[c] = fixed_wide_add(sums.squares[c], fixed_wide_from_float(whole[c] * whole[c]));

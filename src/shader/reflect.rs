@@ -88,8 +88,9 @@ fn parse(words: &[u32]) -> Result<(Module, ModuleInfo)> {
 }
 
 fn validate(module: &Module) -> Result<ModuleInfo> {
-    // No capability beyond what every WebGPU device has.
-    Validator::new(ValidationFlags::all(), Capabilities::empty())
+    // No capability beyond what every WebGPU device has: of those that naga names, halves packed into a uint, which are
+    // missing only on old OpenGL.
+    Validator::new(ValidationFlags::all(), Capabilities::SHADER_FLOAT16_IN_FLOAT32)
         .validate(module)
         .map_err(|e| refusal("naga finds the kernel invalid", &e.into_inner()))
 }

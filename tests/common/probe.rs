@@ -1,0 +1,149 @@
+//! Runs a few lines of GLSL that call leaf functions of `shaders/` over an array, on the device.
+
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+use dapple::gpu::{Command, DeviceChoice, Gpu, Place};
+use dapple::layout::{Backend, Frame, WORKGROUP};
+use dapple::shader::{CacheOptions, Compiler, KernelKey, Sources};
+
+/// A word of the buffers `points` and `values`.
+pub type Word = [u32; 4];
+
+/// What a value has before the kernel writes it.
+pub const UNWRITTEN: u32 = u32::MAX;
+
+/// Stands for the textures of a scene in kernels that include files which name them.
+const NO_TEXTURES: &str = "#include \"texture/context.glsl\"\n\
+    vec4 texture_evaluate(uint reference, TextureContext context) { return vec4(0.0); }\n";
+
+/// The device that the tests of a program share.
+pub struct Probe {
+    gpu: Arc<Gpu>,
+}
+
+impl Probe {
+    /// Opens the device on the first call, with the validation layer when `DAPPLE_VALIDATION` is set.
+    pub fn new() -> &'static Self {
+        static SHARED: OnceLock<Probe> = OnceLock::new();
+        SHARED.get_or_init(|| {
+            let validation = std::env::var_os("DAPPLE_VALIDATION").is_some_and(|v| !v.is_empty() && v != "0");
+            let choice = DeviceChoice { validation, ..DeviceChoice::default() };
+            Probe { gpu: Arc::new(Gpu::open(&choice).unwrap_or_else(|error| panic!("{error}"))) }
+        })
+    }
+
+    /// Runs `glsl`, which defines `void probe(uint i)`, for `i` in `0..points`, with `inputs` behind `fetch_points` and
+    /// room for `outputs` words behind `store_values`. What the kernel does not write is [`UNWRITTEN`].
+    pub fn run(
+        &self,
+        glsl: &str,
+        backend: Backend,
+        inputs: &[Word],
+        points: usize,
+        outputs: usize,
+    ) -> Vec<Word> {
+        let frame = Frame { point_count: points as u32, threads: 1, ..Frame::default() };
+        self.run_with_frame(glsl, backend, &frame, inputs, outputs)
+    }
+
+    /// The same on both back ends, whose answers must be equal to the bit.
+    pub fn both(&self, glsl: &str, inputs: &[Word], points: usize, outputs: usize) -> Vec<Word> {
+        let storage = self.run(glsl, Backend::Storage, inputs, points, outputs);
+        let texel = self.run(glsl, Backend::Texel, inputs, points, outputs);
+        let differs = (0..outputs).find(|&i| storage[i] != texel[i]);
+        if let Some(i) = differs {
+            panic!("word {i}: {:?} from storage buffers, {:?} from texel buffers", storage[i], texel[i]);
+        }
+        storage
+    }
+
+    /// As [`Probe::run`], with the whole uniform block; `i` stays below its `point_count`.
+    pub fn run_with_frame(
+        &self,
+        glsl: &str,
+        backend: Backend,
+        frame: &Frame,
+        inputs: &[Word],
+        outputs: usize,
+    ) -> Vec<Word> {
+        self.try_run(glsl, backend, frame, inputs, outputs).unwrap_or_else(|error| panic!("{error}\n{glsl}"))
+    }
+
+    fn try_run(
+        &self,
+        glsl: &str,
+        backend: Backend,
+        frame: &Frame,
+        inputs: &[Word],
+        outputs: usize,
+    ) -> dapple::Result<Vec<Word>> {
+        let gpu = &self.gpu;
+        let mut sources = sources()?;
+        sources.set_virtual("generated/probe.glsl", glsl)?;
+        let compiler = Compiler::new(sources, cache());
+        let mut key = KernelKey::new("probe.comp");
+        if backend == Backend::Texel {
+            key = key.define("TEXEL_FETCH", 1);
+        }
+        let layout = gpu.layout(backend)?;
+        let pipeline = gpu.pipeline("probe.comp", &layout, &compiler.kernel(&key)?.words)?;
+
+        let block = gpu.upload("frame", bytemuck::bytes_of(frame))?;
+        let points = gpu.upload("points", bytemuck::cast_slice(inputs))?;
+        let bytes = outputs as u64 * 16;
+        let values = gpu.buffer("values", bytes, Place::Device)?;
+        let host = gpu.buffer("values (host)", bytes, Place::Readback)?;
+        let bindings =
+            gpu.bindings(&layout, &[("frame", &block), ("points", &points), ("values", &values)])?;
+        gpu.run(&[
+            Command::Fill { buffer: &values, bytes, value: UNWRITTEN },
+            Command::Barrier,
+            Command::Dispatch {
+                pipeline: &pipeline,
+                bindings: &bindings,
+                groups: frame.point_count.div_ceil(WORKGROUP),
+            },
+            Command::Barrier,
+            Command::Copy { from: &values, to: &host, bytes },
+            Command::Barrier,
+        ])?;
+        host.read(bytes, |words| words.as_chunks().0.to_vec())
+    }
+}
+
+/// The files of `shaders/` as they are on disk, and stubs of what a scene generates.
+pub fn sources() -> dapple::Result<Sources> {
+    let mut sources = Sources::folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders"))?;
+    sources.set_virtual("generated/textures.glsl", NO_TEXTURES)?;
+    Ok(sources)
+}
+
+/// A cache of kernels for tests alone. Its keys are made of all texts, so it never gives an old kernel.
+pub fn cache() -> CacheOptions {
+    CacheOptions::Folder(Path::new(env!("CARGO_TARGET_TMPDIR")).join("spirv"))
+}
+
+/// A word of floats.
+pub fn floats(x: f32, y: f32, z: f32, w: f32) -> Word {
+    [x.to_bits(), y.to_bits(), z.to_bits(), w.to_bits()]
+}
+
+/// The four floats of a word.
+pub fn as_floats(word: Word) -> [f32; 4] {
+    word.map(f32::from_bits)
+}
+
+/// The four floats of a word, widened.
+pub fn as_doubles(word: Word) -> [f64; 4] {
+    word.map(|bits| f64::from(f32::from_bits(bits)))
+}
+
+/// Distance of two floats in units in the last place; 0 and −0 are the same.
+pub fn ulps(a: f32, b: f32) -> u32 {
+    let order = |x: f32| {
+        let bits = x.to_bits() as i32;
+        i64::from(if bits < 0 { i32::MIN.wrapping_sub(bits) } else { bits })
+    };
+    u32::try_from((order(a) - order(b)).abs()).unwrap_or(u32::MAX)
+}

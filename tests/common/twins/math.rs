@@ -1,0 +1,35 @@
+//! Twins of `base/math.glsl` and `base/offset.glsl`.
+
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub fn length(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+pub fn normalize(a: [f64; 3]) -> [f64; 3] {
+    let l = length(a);
+    a.map(|c| c / l)
+}
+
+pub fn wide(a: [f32; 3]) -> [f64; 3] {
+    a.map(f64::from)
+}
+
+/// One coordinate of `offset_ray_origin` (Wächter and Binder, Ray Tracing Gems, chapter 6).
+pub fn offset(p: f32, n: f32) -> f32 {
+    if p.abs() < 1.0 / 32.0 {
+        return p + n / 65536.0;
+    }
+    let steps = (256.0 * n) as i32;
+    f32::from_bits((p.to_bits() as i32).wrapping_add(if p < 0.0 { -steps } else { steps }) as u32)
+}
