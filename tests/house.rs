@@ -331,3 +331,25 @@ fn a_house_in_disorder_is_refused() {
     );
     assert!(stray_vulkan("src/gpu/mod.rs", "use ash::vk;").is_empty());
 }
+
+#[test]
+fn every_crate_has_its_reason() {
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let (mut wanted, mut section) = (BTreeSet::new(), "");
+    for line in manifest.lines() {
+        if line.starts_with('[') {
+            section = line.trim();
+        } else if section.ends_with("dependencies]")
+            && let Some((name, _)) = line.split_once(" = ")
+        {
+            wanted.insert(name.to_owned());
+        }
+    }
+    assert!(wanted.contains("ash") && wanted.contains("proptest"), "{wanted:?}");
+    let text = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+    let (_, crates) = text.split_once("\n## Crates\n").expect("ARCHITECTURE.md has a section Crates");
+    let rows = crates.lines().skip_while(|line| !line.starts_with("|---")).skip(1);
+    let given: BTreeSet<String> =
+        rows.filter_map(|row| row.split('|').nth(1)).map(|name| name.trim().to_owned()).collect();
+    assert_eq!(given, wanted, "the table in ARCHITECTURE.md and Cargo.toml differ");
+}
