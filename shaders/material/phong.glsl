@@ -19,12 +19,17 @@ float phong_diffuse_share(Bsdf b)
     return diffuse + specular > 0.0 ? diffuse / (diffuse + specular) : 1.0;
 }
 
-float phong_cosine(vec3 wo, vec3 wi) { return max(dot(vec3(-wo.xy, wo.z), wi), 0.0); }
+// cosⁿ of the angle to the mirror direction, 0 beyond a right angle (GLSL leaves 0⁰ open).
+float phong_power(Bsdf b, vec3 wo, vec3 wi)
+{
+    float cosine = dot(vec3(-wo.xy, wo.z), wi);
+    return cosine > 0.0 ? pow(cosine, b.exponent) : 0.0;
+}
 
 vec3 phong_eval(Bsdf b, vec3 wo, vec3 wi)
 {
     if (wi.z * wo.z <= 0.0) return vec3(0.0);
-    float lobe = (b.exponent + 2.0) * INV_TWO_PI * pow(phong_cosine(wo, wi), b.exponent);
+    float lobe = (b.exponent + 2.0) * INV_TWO_PI * phong_power(b, wo, wi);
     return b.color * INV_PI + b.specular * lobe;
 }
 
@@ -32,7 +37,7 @@ float phong_pdf(Bsdf b, vec3 wo, vec3 wi)
 {
     float share = phong_diffuse_share(b);
     float diffuse = wi.z * wo.z > 0.0 ? cosine_hemisphere_pdf(abs(wi.z)) : 0.0;
-    float specular = (b.exponent + 1.0) * INV_TWO_PI * pow(phong_cosine(wo, wi), b.exponent);
+    float specular = (b.exponent + 1.0) * INV_TWO_PI * phong_power(b, wo, wi);
     return mix(specular, diffuse, share);
 }
 
