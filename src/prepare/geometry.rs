@@ -63,6 +63,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         let kind = if once { INSTANCE_SOUP } else { INSTANCE_MESH };
         let index = out.push_instance(kind, map, instance.material.index() as u32);
         out.instances[index as usize].light_stride = 1;
+        out.instances[index as usize].default_uv = u32::from(mesh.uvs.is_empty());
         if once {
             push_triangles(mesh, shines, &map, Some(index), out, &mut soup);
         } else {
@@ -203,7 +204,7 @@ impl Prepared {
             handedness: if world_from_object.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 },
             light_stride: 0,
             in_world: u32::from(kind == INSTANCE_SOUP),
-            spare: 0,
+            default_uv: 0,
         });
         self.instances.len() as u32 - 1
     }
