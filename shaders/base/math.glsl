@@ -42,6 +42,19 @@ vec3 basis_to_world(Basis b, vec3 v) { return b.x * v.x + b.y * v.y + b.z * v.z;
 
 vec3 basis_to_local(Basis b, vec3 v) { return vec3(dot(b.x, v), dot(b.y, v), dot(b.z, v)); }
 
+// Angle about the origin from +x in turns, in [0, 1); 0 at the origin.
+float turns(vec2 p)
+{
+    float u = p == vec2(0.0) ? 0.0 : atan(p.y, p.x) * INV_TWO_PI;
+    return u < 0.0 ? u + 1.0 : u;
+}
+
+// uv of a point on the unit sphere: longitude about +z from +x, and latitude. The z of p may be off by rounding.
+vec2 sphere_uv(vec3 p) { return vec2(turns(p.xy), 0.5 + asin(clamp(p.z, -1.0, 1.0)) * INV_PI); }
+
+// uv of a point in the unit disk: angle from +x, and 1 at the centre down to 0 at the rim.
+vec2 disk_uv(vec2 p) { return vec2(turns(p), 1.0 - length(p)); }
+
 // Balance of two sampling strategies, power heuristic with exponent 2 (Veach 1997, section 9.2.4).
 float power_heuristic(float own, float other)
 {

@@ -33,7 +33,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec3 p = triangle.a + bary.x * ab + bary.y * ac;
     vec3 geometric = cross(ab, ac);
 
-    // uv (0,0), (1,0), (1,1) where the mesh has none; a mirrored triangle was turned round on its way into the world
+    // uv (0,0), (1,0), (1,1) where the mesh has none; two corners changed places where it was mirrored into the world
     bool turned = !to_world && instance.handedness < 0.0;
     vec2 uv0 = vec2(0.0);
     vec2 uv1 = turned ? vec2(1.0) : vec2(1.0, 0.0);
@@ -86,11 +86,7 @@ Surface quadric_surface(Instance instance, float t, vec3 origin, vec3 direction)
     vec3 p = object_point(instance, origin) + t * object_vector(instance, direction);
     bool sphere = instance.kind == INSTANCE_SPHERE;
     if (sphere) p = normalize(p); else p.z = 0.0;
-    float r = length(p.xy);
-    float phi = r > 0.0 ? atan(p.y, p.x) : 0.0;
-    float u = phi * INV_TWO_PI;
-    u = u < 0.0 ? u + 1.0 : u;
-    s.uv = vec2(u, sphere ? 0.5 + asin(clamp(p.z, -1.0, 1.0)) * INV_PI : 1.0 - r);
+    s.uv = sphere ? sphere_uv(p) : disk_uv(p.xy);
     s.object_position = p;
     s.position = world_point(instance, p);
     s.dpdu = world_vector(instance, 2.0 * PI * vec3(-p.y, p.x, 0.0));

@@ -68,9 +68,9 @@ LightSample quad_sample_light(Light light, vec3 from, vec2 u01)
     bool spherical = r.solid_angle > 0.0;
     vec2 at = spherical ? spherical_rectangle_sample(r, u01) : u01;
     vec3 point = light.position + at.x * light.edge_u + at.y * light.edge_v;
-    vec3 normal = normalize(cross(light.edge_u, light.edge_v));
+    vec3 normal = light.a * normalize(cross(light.edge_u, light.edge_v));
     float pdf = spherical ? 1.0 / r.solid_angle : area_to_solid_angle(light.b, from, point, normal);
-    return light_surface_point(light, from, point, normal, pdf, at.x * light.uv1 + at.y * light.uv2);
+    return light_surface_point(light, from, point, normal, pdf, at);
 }
 
 float quad_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)

@@ -1,4 +1,5 @@
-// A sphere seen from outside: uniform over the cone that it fills. From inside: uniform over its area.
+// A sphere seen from outside: uniform over the cone that it fills. From inside, and an ellipsoid (radius 0 in its
+// record): the image of a uniform choice on the unit sphere.
 #include "light/sample.glsl"
 
 // 1 − cos of the half-angle of the cone, without cancellation for a small sphere (pbrt-v4, section 6.2.4).
@@ -7,25 +8,48 @@ float sphere_cone(float sin2_max)
     return sin2_max < 0.00068523 ? 0.5 * sin2_max : 1.0 - safe_sqrt(1.0 - sin2_max);
 }
 
-// uv where the unit normal is `n`, as in geometry/surface.glsl. The edges of a mirrored sphere have changed places.
-vec2 sphere_light_uv(Light light, vec3 n)
+// The cofactors of the map from the unit sphere to the light: inverse · determinant, and the transpose of that.
+struct SphereMap { vec3 vw; vec3 wu; vec3 uv; float determinant; };
+
+SphereMap sphere_map(Light light)
 {
-    vec2 across = (dot(n, light.edge_u) * light.uv1 + dot(n, light.edge_v) * light.uv2) / light.a;
-    float up = dot(n, cross(light.edge_u, light.edge_v)) / sqr(light.a);
-    float phi = atan(across.y, across.x) * INV_TWO_PI;
-    return vec2(phi < 0.0 ? phi + 1.0 : phi, 0.5 + asin(clamp(up, -1.0, 1.0)) * INV_PI);
+    vec3 u = light.edge_u;
+    vec3 v = light.edge_v;
+    vec3 w = vec3(light.uv0, light.uv1.x);
+    vec3 vw = cross(v, w);
+    return SphereMap(vw, cross(w, u), cross(u, v), dot(u, vw));
+}
+
+// The point of the unit sphere that `offset` from the centre comes from.
+vec3 sphere_object_point(SphereMap map, vec3 offset)
+{
+    return vec3(dot(map.vw, offset), dot(map.wu, offset), dot(map.uv, offset)) / map.determinant;
+}
+
+// Normal of the light at the image of `n`, as long as the area grows there.
+vec3 sphere_scaled_normal(SphereMap map, vec3 n)
+{
+    return (map.vw * n.x + map.wu * n.y + map.uv * n.z) * (map.determinant < 0.0 ? -1.0 : 1.0);
+}
+
+LightSample ellipsoid_sample_light(Light light, SphereMap map, vec3 from, vec2 u01)
+{
+    vec3 n = sphere_sample(u01);
+    vec3 point = light.position + light.edge_u * n.x + light.edge_v * n.y + vec3(light.uv0, light.uv1.x) * n.z;
+    vec3 scaled = sphere_scaled_normal(map, n);
+    float growth = length(scaled);
+    vec3 normal = scaled / growth;
+    float pdf = area_to_solid_angle(4.0 * PI * growth, from, point, normal);
+    return light_surface_point(light, from, point, normal, pdf, sphere_uv(n));
 }
 
 LightSample sphere_sample_light(Light light, vec3 from, vec2 u01)
 {
+    SphereMap map = sphere_map(light);
     vec3 axis = light.position - from;
     float d2 = dot(axis, axis);
     float radius = light.a;
-    if (d2 <= sqr(radius) * 1.0001) {
-        vec3 n = sphere_sample(u01);
-        vec3 point = light.position + radius * n;
-        return light_surface_point(light, from, point, n, area_to_solid_angle(light.b, from, point, n), sphere_light_uv(light, n));
-    }
+    if (radius == 0.0 || d2 <= sqr(radius) * 1.0001) return ellipsoid_sample_light(light, map, from, u01);
     float sin2_max = sqr(radius) / d2;
     float one_minus_cos_max = sphere_cone(sin2_max);
     float one_minus_cos = u01.x * one_minus_cos_max;
@@ -37,7 +61,7 @@ LightSample sphere_sample_light(Light light, vec3 from, vec2 u01)
     float phi = 2.0 * PI * u01.y;
     vec3 towards = -axis * inversesqrt(d2);
     vec3 n = basis_to_world(basis_around(towards), vec3(sin_alpha * cos(phi), sin_alpha * sin(phi), cos_alpha));
-    vec2 uv = sphere_light_uv(light, n);
+    vec2 uv = sphere_uv(sphere_object_point(map, radius * n));
     return light_surface_point(light, from, light.position + radius * n, n, INV_TWO_PI / one_minus_cos_max, uv);
 }
 
@@ -45,6 +69,8 @@ float sphere_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)
 {
     vec3 axis = light.position - from;
     float d2 = dot(axis, axis);
-    if (d2 <= sqr(light.a) * 1.0001) return area_to_solid_angle(light.b, from, point, normal);
-    return INV_TWO_PI / sphere_cone(sqr(light.a) / d2);
+    if (light.a > 0.0 && d2 > sqr(light.a) * 1.0001) return INV_TWO_PI / sphere_cone(sqr(light.a) / d2);
+    SphereMap map = sphere_map(light);
+    float growth = length(sphere_scaled_normal(map, sphere_object_point(map, point - light.position)));
+    return area_to_solid_angle(4.0 * PI * growth, from, point, normal);
 }

@@ -173,7 +173,7 @@ struct Instance {
     float handedness; // 1, or -1 when the map to the world mirrors
     uint light_stride; // 1 when each triangle is a light of its own, 0 when they are one light together
     uint in_world; // 1 when geometry is already in world space
-    uint default_uv; // 1 when its mesh has no uv: (0, 0), (1, 0), (1, 1) on every triangle
+    uint default_uv; // 1 when the mesh has no uv: then it is (0,0), (1,0), (1,1) on every triangle
 };
 const uint INSTANCE_WORDS = 8u;
 Instance instance_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6, uvec4 w7)
@@ -272,16 +272,16 @@ struct Light {
     float accept; // share of its slot of the alias table that is its own
     uint alias; // the light that has the rest of the slot
     vec3 position; // position, centre, corner or first vertex
-    float a; // radius of a sphere; cosine of the inner cone of a spot
+    float a; // radius (0: ellipsoid); -1 when a flat light faces against u × v; cosine of a spot's inner cone
     vec3 edge_u; // first edge, axis, or second vertex less the first
     float b; // cosine of the outer cone of a spot; area of a surface
     vec3 edge_v; // second edge, or third vertex less the first
     uint two_sided; // 1 when it shines on both sides
     vec3 radiance; // radiance, intensity or irradiance
     uint texture; // texture of the radiance, or NONE
-    vec2 uv0; // uv of the first vertex of a triangle, 0 for other kinds
-    vec2 uv1; // uv of the second vertex less the first; where edge_u goes in object space for other kinds
-    vec2 uv2; // uv of the third vertex less the first; where edge_v goes in object space for other kinds
+    vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a sphere
+    vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
+    vec2 uv2; // uv of the third vertex less the first
     vec2 spare; // room
 };
 const uint LIGHT_WORDS = 7u;

@@ -254,7 +254,7 @@ records! {
         light_stride: u32,
         /// 1 when geometry is already in world space
         in_world: u32,
-        /// 1 when its mesh has no uv: (0, 0), (1, 0), (1, 1) on every triangle
+        /// 1 when the mesh has no uv: then it is (0,0), (1,0), (1,1) on every triangle
         default_uv: u32,
     }
 
@@ -330,7 +330,7 @@ records! {
         alias: u32,
         /// position, centre, corner or first vertex
         position: [f32; 3],
-        /// radius of a sphere; cosine of the inner cone of a spot
+        /// radius (0: ellipsoid); -1 when a flat light faces against u × v; cosine of a spot's inner cone
         a: f32,
         /// first edge, axis, or second vertex less the first
         edge_u: [f32; 3],
@@ -344,11 +344,11 @@ records! {
         radiance: [f32; 3],
         /// texture of the radiance, or NONE
         texture: u32,
-        /// uv of the first vertex of a triangle, 0 for other kinds
+        /// uv of the first vertex of a triangle; x and y of the third axis of a sphere
         uv0: [f32; 2],
-        /// uv of the second vertex less the first; where edge_u goes in object space for other kinds
+        /// uv of the second vertex less the first; z of the third axis of a sphere
         uv1: [f32; 2],
-        /// uv of the third vertex less the first; where edge_v goes in object space for other kinds
+        /// uv of the third vertex less the first
         uv2: [f32; 2],
         /// room
         spare: [f32; 2],

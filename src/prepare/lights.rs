@@ -87,22 +87,32 @@ fn push_shape(scene: &Scene, index: usize, map: &Affine3A, textures: &References
     };
     let (mut light, exitance) = surface_light(emission, textures, kind);
     light.position = Vec3::from(map.translation).to_array();
-    let (x, y) = (Vec3::from(map.matrix3.x_axis), Vec3::from(map.matrix3.y_axis));
-    // Front of a mirrored shape: its normal is that of the object, not of the cross product in the world. Its edges
-    // change places, so uv1 and uv2, which take positions on the edges to those of the object, do so too.
-    let mirrored = map.matrix3.determinant() < 0.0;
-    let (x, y) = if mirrored { (y, x) } else { (x, y) };
+    let m = &map.matrix3;
+    let (x, y, z) = (Vec3::from(m.x_axis), Vec3::from(m.y_axis), Vec3::from(m.z_axis));
     (light.edge_u, light.edge_v) = (x.to_array(), y.to_array());
-    let (uv1, uv2) = if mirrored { (Vec2::Y, Vec2::X) } else { (Vec2::X, Vec2::Y) };
-    (light.uv1, light.uv2) = (uv1.to_array(), uv2.to_array());
-    light.a = x.length();
+    // Front of a mirrored shape: its normal is that of the object, not of the cross product in the world.
+    light.a = m.determinant().signum();
+    if let ShapeKind::Sphere { .. } = shape.kind {
+        light.a = if is_sphere(x, y, z) { x.length() } else { 0.0 };
+        (light.uv0, light.uv1) = ([z.x, z.y], [z.z, 0.0]);
+    }
     light.b = match shape.kind {
-        ShapeKind::Sphere { .. } => 4.0 * PI * x.length_squared(),
+        // Of a sphere of the same volume: for an ellipsoid a good guess, and only its power depends on it.
+        ShapeKind::Sphere { .. } => 4.0 * PI * m.determinant().abs().powf(2.0 / 3.0),
         ShapeKind::Disk { .. } => PI * x.cross(y).length(),
         ShapeKind::Quad { .. } => x.cross(y).length(),
     };
     let power = Some(exitance * light.b);
     entries.push(Entry { light, power });
+}
+
+/// Whether the axes of a mapped sphere are as long as one another, and at right angles, but for rounding.
+fn is_sphere(x: Vec3, y: Vec3, z: Vec3) -> bool {
+    let (size, least) = (x.length_squared(), 1e-5 * x.length_squared());
+    let equal = |a: f32, b: f32| (a - b).abs() <= least;
+    equal(y.length_squared(), size)
+        && equal(z.length_squared(), size)
+        && [x.dot(y), y.dot(z), z.dot(x)].into_iter().all(|cosine| equal(cosine, 0.0))
 }
 
 /// One light a triangle, in the order of the mesh; those that do not shine keep their place with no power.

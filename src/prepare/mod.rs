@@ -16,8 +16,11 @@ pub(crate) use environment::rows as environment_rows;
 pub use variant::{Stage, defines, stack_size};
 
 use crate::Result;
-use crate::layout::{EnvironmentCell, Face, Instance, Light, Material, Node, Triangle, Vertex};
-use crate::scene::Scene;
+use crate::layout::{
+    EnvironmentCell, Face, Instance, LIGHT_DISTANT, LIGHT_POINT, LIGHT_SPOT, Light, Material, Node, Triangle,
+    Vertex,
+};
+use crate::scene::{Scene, Surface, Value};
 use glam::Vec3;
 
 /// Everything that the kernels need of a scene, as plain records in the order of the bindings.
@@ -172,21 +175,45 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
     lights::prepare(scene, &textures, placed, &mut out);
     environment::prepare(scene, &textures, &mut out);
     out.features.lens = scene.camera.lens.is_some();
-    choose_units(scene, &mut out);
+    choose_units(scene, &textures, &mut out);
     Ok(out)
 }
 
-/// Units of the fixed-point sums: 2³⁰ steps up to the brightest light, and 2²⁴ across the scene.
-fn choose_units(scene: &Scene, out: &mut Prepared) {
-    let environment = scene.environment.as_ref().map_or(0.0, |e| match e.radiance {
-        crate::scene::Value::Constant(c) => c.max_element() * e.scale,
-        crate::scene::Value::Texture(_) => e.scale,
+/// Units of the fixed-point sums: 2³⁰ steps up to the brightest thing, and a sample may be 2⁸ times as bright; 2²⁴ steps
+/// across the scene.
+fn choose_units(scene: &Scene, textures: &textures::References, out: &mut Prepared) {
+    let of = |value: &Value<Vec3>| match value {
+        Value::Constant(color) => color.max_element(),
+        Value::Texture(texture) => textures.max(*texture),
+    };
+    let environment = scene.environment.as_ref().map_or(0.0, |e| of(&e.radiance) * e.scale);
+    let surfaces = scene.materials.iter().flat_map(|(_, _, material)| {
+        let unlit = match &material.surface {
+            Surface::Unlit { color } => of(color),
+            _ => 0.0,
+        };
+        [unlit, material.emission.as_ref().map_or(0.0, |emission| of(&emission.radiance))]
     });
-    let lights = out.lights.iter().map(|light| Vec3::from(light.radiance).max_element());
-    let surfaces =
-        out.materials.iter().map(|m| Vec3::from(m.emission).max(Vec3::from(m.color)).max_element());
+    let size = out.bounds.diagonal().max(f32::MIN_POSITIVE);
+    let lights = out.lights.iter().map(|light| punctual_radiance(light, scene.camera.position, size));
     let brightest = lights.chain(surfaces).fold(environment.max(1.0), f32::max);
-    out.radiance_exponent = (brightest.log2().ceil() as i32 - 30).clamp(-60, 60);
+    out.radiance_exponent = (brightest.log2().ceil().min(100.0) as i32 - 30).clamp(-60, 60);
     let far = out.bounds.diagonal().max(1e-6);
     out.depth_exponent = (far.log2().ceil() as i32 - 24).clamp(-60, 60);
+}
+
+/// What a light without extent brings to a sample near it. Near is a quarter of the distance at which the camera is
+/// likely to look: as far from the light as the camera is, but no farther than an eighth of the scene. A sample stands for all
+/// lights, so a light that is rarely chosen counts for more. 0 for surfaces, whose samples are weighed against the BSDF
+/// and stay near their radiance.
+fn punctual_radiance(light: &Light, camera: Vec3, size: f32) -> f32 {
+    let all = Vec3::from(light.radiance).max_element() / light.chance.max(1e-9);
+    match light.kind {
+        LIGHT_POINT | LIGHT_SPOT => {
+            let distance = 0.25 * camera.distance(light.position.into()).clamp(size / 512.0, size / 8.0);
+            all / (distance * distance)
+        }
+        LIGHT_DISTANT => all,
+        _ => 0.0,
+    }
 }

@@ -12,10 +12,11 @@ use crate::scene::{self, Channel, Handle, Scene, TexelFilter, Texture, Wrap};
 use crate::{Error, Result};
 use std::fmt::Write as _;
 
-/// References of the textures of a scene, and their mean brightness.
+/// References of the textures of a scene, and how bright they are.
 pub(super) struct References {
     references: Vec<u32>,
     means: Vec<f32>,
+    maxima: Vec<f32>,
 }
 
 impl References {
@@ -27,6 +28,11 @@ impl References {
     /// Mean of its values over the picture.
     pub(super) fn mean(&self, handle: Handle<Texture>) -> f32 {
         self.means[handle.index()]
+    }
+
+    /// Largest of its values over the picture.
+    pub(super) fn max(&self, handle: Handle<Texture>) -> f32 {
+        self.maxima[handle.index()]
     }
 }
 
@@ -44,7 +50,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
         )));
     }
     let mut shapes: Vec<Format> = Vec::new();
-    let mut references = References { references: Vec::new(), means: Vec::new() };
+    let mut references = References { references: Vec::new(), means: Vec::new(), maxima: Vec::new() };
     for (texture, place) in places {
         let shape = shapes.iter().position(|format| *format == place.format).unwrap_or_else(|| {
             shapes.push(place.format);
@@ -55,29 +61,38 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
         let record = record(texture, image, atlas.address(place));
         out.textures.extend_from_slice(bytemuck::cast_slice(std::slice::from_ref(&record)));
         references.references.push((shape as u32) << 24 | word);
-        references.means.push(mean(texture, image));
+        let (mean, max) = brightness(texture, image);
+        references.means.push(mean);
+        references.maxima.push(max);
     }
     out.texels = atlas.into_words();
     out.texture_glsl = glsl(&shapes);
     Ok(references)
 }
 
-/// Mean brightness over the picture, for the power of a light.
-fn mean(texture: &scene::ImageTexture, image: &scene::Image) -> f32 {
+/// Mean brightness over the picture, for the power of a light; and its largest value, for the unit of the sums.
+fn brightness(texture: &scene::ImageTexture, image: &scene::Image) -> (f32, f32) {
     let read = Reader { image, decode: texture.color_space == scene::ColorSpace::Srgb };
     let value = |x, y| {
         let [r, g, b, a] = read.linear(x, y);
-        let value = match texture.channel {
-            Channel::Rgb => (r + g + b) / 3.0,
-            Channel::R => r,
-            Channel::G => g,
-            Channel::B => b,
-            Channel::A => a,
+        let rgb = match texture.channel {
+            Channel::Rgb => [r, g, b],
+            Channel::R => [r; 3],
+            Channel::G => [g; 3],
+            Channel::B => [b; 3],
+            Channel::A => [a; 3],
         };
-        f64::from(if texture.invert { 1.0 - value } else { value } * texture.scale)
+        rgb.map(|c| if texture.invert { 1.0 - c } else { c } * texture.scale)
     };
-    let sum: f64 = (0..image.height).map(|y| (0..image.width).map(|x| value(x, y)).sum::<f64>()).sum();
-    (sum / (f64::from(image.width) * f64::from(image.height)).max(1.0)) as f32
+    let (mut sum, mut max) = (0.0_f64, 0.0_f32);
+    for y in 0..image.height {
+        for x in 0..image.width {
+            let [r, g, b] = value(x, y);
+            sum += f64::from((r + g + b) / 3.0);
+            max = max.max(r).max(g).max(b);
+        }
+    }
+    ((sum / (f64::from(image.width) * f64::from(image.height)).max(1.0)) as f32, max)
 }
 
 fn glsl(shapes: &[Format]) -> String {
