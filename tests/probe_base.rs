@@ -406,6 +406,28 @@ fn bases_are_orthonormal() {
 }
 
 #[test]
+fn arc_functions_are_exact() {
+    let glsl = "#include \"base/math.glsl\"
+        void probe(uint i) {
+            float x = uintBitsToFloat(fetch_points(i).x);
+            store_values(i, floatBitsToUint(vec4(asin_exact(x), acos_exact(x), 0.0, 0.0)));
+        }";
+    let mut random = Random(12);
+    let mut numbers =
+        vec![0.0, -0.0, 0.5, -0.5, 1.0, -1.0, 0.99999994, 0.5000001, 1e-20, 1.000_001, -1.000_001];
+    numbers.extend((0..50_000).map(|_| random.between(-1.0, 1.0)));
+    let inputs: Vec<Word> = numbers.iter().map(|&x| floats(x, 0.0, 0.0, 0.0)).collect();
+    let values = Probe::new().both(glsl, &inputs, inputs.len(), inputs.len());
+    for (x, value) in numbers.iter().zip(&values) {
+        let x = f64::from(*x).clamp(-1.0, 1.0);
+        let [asin, acos, ..] = as_doubles(*value);
+        // The polynomial is good to 1e-7, and π / 2 takes a rounding of 6e-8 twice
+        assert!((asin - x.asin()).abs() < 3e-7, "asin({x}) = {asin}");
+        assert!((acos - x.acos()).abs() < 4e-7, "acos({x}) = {acos}");
+    }
+}
+
+#[test]
 fn power_heuristic_holds_for_every_density() {
     let glsl = "#include \"base/math.glsl\"
         void probe(uint i) {

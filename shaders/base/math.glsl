@@ -17,6 +17,26 @@ float mean_component(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 
+// asin for 0 <= x <= 1, good to 2e-7 (Cephes, asinf). GLSL's own may be off by 4e-4, and is on Mesa.
+float asin_positive(float x)
+{
+    bool steep = x > 0.5;
+    float z = steep ? 0.5 * (1.0 - x) : x * x;
+    float s = steep ? sqrt(z) : x;
+    float series = (((4.2163199048e-2 * z + 2.4181311049e-2) * z + 4.5470025998e-2) * z + 7.4953002686e-2) * z + 1.6666752422e-1;
+    float angle = s + s * z * series;
+    return steep ? 0.5 * PI - 2.0 * angle : angle;
+}
+
+// Arc sine and cosine for solid angles and for places in pictures; arguments beyond ±1 count as ±1.
+float asin_exact(float x)
+{
+    float angle = asin_positive(min(abs(x), 1.0));
+    return x < 0.0 ? -angle : angle;
+}
+
+float acos_exact(float x) { return 0.5 * PI - asin_exact(x); }
+
 // An orthonormal basis around a unit vector (Duff et al. 2017).
 struct Basis { vec3 x; vec3 y; vec3 z; };
 

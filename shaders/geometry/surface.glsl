@@ -87,7 +87,7 @@ Surface quadric_surface(Instance instance, float t, vec3 origin, vec3 direction)
     float phi = r > 0.0 ? atan(p.y, p.x) : 0.0;
     float u = phi * INV_TWO_PI;
     u = u < 0.0 ? u + 1.0 : u;
-    s.uv = vec2(u, sphere ? 0.5 + asin(clamp(p.z, -1.0, 1.0)) * INV_PI : 1.0 - r);
+    s.uv = vec2(u, sphere ? 0.5 + asin_exact(p.z) * INV_PI : 1.0 - r);
     s.object_position = p;
     s.position = world_point(instance, p);
     s.dpdu = world_vector(instance, 2.0 * PI * vec3(-p.y, p.x, 0.0));
