@@ -29,7 +29,7 @@ SphericalRectangle spherical_rectangle(Light light, vec3 from)
     r.y0 = dot(d, r.y);
     r.x1 = r.x0 + lx;
     r.y1 = r.y0 + ly;
-    vec4 nz = vec4(r.y0, r.x1, r.y1, r.x0) * vec4(1.0, -1.0, -1.0, 1.0);
+    vec4 nz = vec4(r.y0, r.x1, r.y1, r.x0) * vec4(-1.0, 1.0, 1.0, -1.0);
     vec4 other = vec4(r.y0, r.x1, r.y1, r.x0);
     nz = nz * inversesqrt(max(r.z0 * r.z0 + other * other, 1e-30));
     float g0 = acos_exact(-nz.x * nz.y);
