@@ -406,6 +406,25 @@ fn bases_are_orthonormal() {
 }
 
 #[test]
+fn short_vectors_have_a_direction() {
+    let glsl = "#include \"base/math.glsl\"
+        void probe(uint i) {
+            vec3 v = uintBitsToFloat(fetch_points(i).xyz);
+            store_values(i, floatBitsToUint(vec4(normalize_or(v, vec3(0.0, 1.0, 0.0)), 0.0)));
+        }";
+    let sizes = [1e-37, 1e-30, 1e-20, 1.0, 1e20, 1e38];
+    let mut inputs: Vec<Word> = sizes.map(|s: f32| floats(0.6 * s, 0.0, -0.8 * s, 0.0)).to_vec();
+    inputs.push(floats(0.0, 0.0, 0.0, 0.0));
+    let values = Probe::new().both(glsl, &inputs, inputs.len(), inputs.len());
+    for value in &values[..6] {
+        let [x, y, z, _] = as_doubles(*value);
+        // A division of 2.5 ulp, a square root, a product
+        assert!((x - 0.6).abs() < 1e-6 && y == 0.0 && (z + 0.8).abs() < 1e-6, "{x} {y} {z}");
+    }
+    assert_eq!(as_floats(values[6]), [0.0, 1.0, 0.0, 0.0]);
+}
+
+#[test]
 fn arc_functions_are_exact() {
     let glsl = "#include \"base/math.glsl\"
         void probe(uint i) {

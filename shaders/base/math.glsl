@@ -15,6 +15,13 @@ float max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 float mean_component(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
+// The unit vector along v, however short v is; `otherwise` when it is 0.
+vec3 normalize_or(vec3 v, vec3 otherwise)
+{
+    float most = max_component(abs(v));
+    return most > 0.0 ? normalize(v / most) : otherwise;
+}
+
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 
 // asin for 0 <= x <= 1, good to 2e-7 (Cephes, asinf). GLSL's own may be off by 4e-4, and is on Mesa.
