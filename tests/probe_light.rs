@@ -215,7 +215,7 @@ fn rectangles_are_uniform_over_their_solid_angle() {
         ([0.6, 1.0, 0.8], [1.6, 0.0, -1.2], [0.0, -3.0, 0.0], [-0.5, 0.25, 0.0]),
         // Close by, and small
         ([-2.0, -3.0, 0.05], [0.0, 5.0, 0.0], [5.0, 0.0, 0.0], [0.0, 0.0, 0.0]),
-        ([4.0, 3.0, 5.0], [0.0, 0.2, 0.0], [0.3, 0.0, 0.0], [0.0, 0.0, 0.0_f32]),
+        ([4.0, 3.0, 5.0], [0.0, 0.8, 0.0], [1.2, 0.0, 0.0], [0.0, 0.0, 0.0_f32]),
     ] {
         let place = format!("rectangle {position:?} {edge_u:?} {edge_v:?} from {from:?}");
         let mut light = flat(LIGHT_QUAD, position, edge_u, edge_v);
@@ -253,6 +253,25 @@ fn rectangles_are_uniform_over_their_solid_angle() {
         results.push((place, chi2::test(&counts, &expected)));
     }
     chi2::accept(&results);
+}
+
+#[test]
+fn small_rectangles_keep_their_solid_angle() {
+    let mut random = Random(9);
+    for i in 0..24 {
+        // From 1e-5 to 0.1 steradians, seen aslant
+        let size = random.between(-7.0, -1.0).exp2();
+        let (x, y) = (random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        let position = [x, y, 1.0];
+        let mut light = flat(LIGHT_QUAD, position, [size, 0.0, 0.0], [0.0, 0.7 * size, 0.0]);
+        light.two_sided = 1;
+        let all = samples(&light, [0.0; 3], 4096);
+        let mean = check(&format!("small {i}"), &light, [0.0; 3], &all, |_| [0.0, 0.0, 1.0]);
+        let [x, y, size] = [x, y, size].map(f64::from);
+        let whole = corner_angle([x, x + size], [y, y + f64::from(0.7_f32 * size as f32)], 1.0);
+        // 1e-6 over the least angle that is sampled as such
+        expect_solid_angle(&format!("small {i}: {whole}"), &all, mean, whole, 5e-4);
+    }
 }
 
 #[test]

@@ -150,8 +150,10 @@ fn triangle_points_are_uniform() {
     chi2::accept(&[("triangle".into(), chi2::test_uniform(&counts))]);
 }
 
+type Filter = fn(f64) -> f64;
+
 /// The filters as they are documented in the scene language, not normalised.
-fn filters() -> [(&'static str, fn(f64) -> f64); 3] {
+fn filters() -> [(&'static str, Filter); 3] {
     [
         ("tent_sample", |x| 1.0 - x.abs()),
         ("gaussian_sample", |x| (-4.5 * x * x).exp() - f64::exp(-4.5)),
@@ -163,7 +165,7 @@ fn filters() -> [(&'static str, fn(f64) -> f64); 3] {
 }
 
 /// Integral of a filter over a part of its range, by the midpoint rule.
-fn integral(f: fn(f64) -> f64, low: f64, high: f64) -> f64 {
+fn integral(f: Filter, low: f64, high: f64) -> f64 {
     let n = 2000;
     let step = (high - low) / f64::from(n);
     (0..n).map(|i| f(low + (f64::from(i) + 0.5) * step) * step).sum()
