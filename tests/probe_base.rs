@@ -406,6 +406,47 @@ fn bases_are_orthonormal() {
 }
 
 #[test]
+fn short_vectors_have_a_direction() {
+    let glsl = "#include \"base/math.glsl\"
+        void probe(uint i) {
+            vec3 v = uintBitsToFloat(fetch_points(i).xyz);
+            store_values(i, floatBitsToUint(vec4(normalize_or(v, vec3(0.0, 1.0, 0.0)), 0.0)));
+        }";
+    let sizes = [1e-37, 1e-30, 1e-20, 1.0, 1e20, 1e38];
+    let mut inputs: Vec<Word> = sizes.map(|s: f32| floats(0.6 * s, 0.0, -0.8 * s, 0.0)).to_vec();
+    inputs.push(floats(0.0, 0.0, 0.0, 0.0));
+    let values = Probe::new().both(glsl, &inputs, inputs.len(), inputs.len());
+    for value in &values[..6] {
+        let [x, y, z, _] = as_doubles(*value);
+        // A division of 2.5 ulp, a square root, a product
+        assert!((x - 0.6).abs() < 1e-6 && y == 0.0 && (z + 0.8).abs() < 1e-6, "{x} {y} {z}");
+    }
+    assert_eq!(as_floats(values[6]), [0.0, 1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn arc_functions_are_exact() {
+    let glsl = "#include \"base/math.glsl\"
+        void probe(uint i) {
+            float x = uintBitsToFloat(fetch_points(i).x);
+            store_values(i, floatBitsToUint(vec4(asin_exact(x), acos_exact(x), 0.0, 0.0)));
+        }";
+    let mut random = Random(12);
+    let mut numbers =
+        vec![0.0, -0.0, 0.5, -0.5, 1.0, -1.0, 0.99999994, 0.5000001, 1e-20, 1.000_001, -1.000_001];
+    numbers.extend((0..50_000).map(|_| random.between(-1.0, 1.0)));
+    let inputs: Vec<Word> = numbers.iter().map(|&x| floats(x, 0.0, 0.0, 0.0)).collect();
+    let values = Probe::new().both(glsl, &inputs, inputs.len(), inputs.len());
+    for (x, value) in numbers.iter().zip(&values) {
+        let x = f64::from(*x).clamp(-1.0, 1.0);
+        let [asin, acos, ..] = as_doubles(*value);
+        // The polynomial is good to 1e-7, and π / 2 takes a rounding of 6e-8 twice
+        assert!((asin - x.asin()).abs() < 3e-7, "asin({x}) = {asin}");
+        assert!((acos - x.acos()).abs() < 4e-7, "acos({x}) = {acos}");
+    }
+}
+
+#[test]
 fn power_heuristic_holds_for_every_density() {
     let glsl = "#include \"base/math.glsl\"
         void probe(uint i) {

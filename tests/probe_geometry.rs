@@ -184,7 +184,7 @@ fn fan(random: &mut Random, n: usize, center: Point, size: f32) -> (Vec<Point>, 
             let t = [0, 1 + i, 1 + (i + 1) % n];
             let turn = random.u32() as usize % 3;
             let mut t = [t[turn], t[(turn + 1) % 3], t[(turn + 2) % 3]];
-            if random.u32() % 2 == 0 {
+            if random.u32().is_multiple_of(2) {
                 t.swap(0, 1);
             }
             t

@@ -15,7 +15,34 @@ float max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 float mean_component(vec3 v) { return (v.x + v.y + v.z) * (1.0 / 3.0); }
 
+// The unit vector along v, however short v is; `otherwise` when it is 0.
+vec3 normalize_or(vec3 v, vec3 otherwise)
+{
+    float most = max_component(abs(v));
+    return most > 0.0 ? normalize(v / most) : otherwise;
+}
+
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
+
+// asin for 0 <= x <= 1, good to 2e-7 (Cephes, asinf). GLSL's own may be off by 4e-4, and is on Mesa.
+float asin_positive(float x)
+{
+    bool steep = x > 0.5;
+    float z = steep ? 0.5 * (1.0 - x) : x * x;
+    float s = steep ? sqrt(z) : x;
+    float series = (((4.2163199048e-2 * z + 2.4181311049e-2) * z + 4.5470025998e-2) * z + 7.4953002686e-2) * z + 1.6666752422e-1;
+    float angle = s + s * z * series;
+    return steep ? 0.5 * PI - 2.0 * angle : angle;
+}
+
+// Arc sine and cosine for solid angles and for places in pictures; arguments beyond ±1 count as ±1.
+float asin_exact(float x)
+{
+    float angle = asin_positive(min(abs(x), 1.0));
+    return x < 0.0 ? -angle : angle;
+}
+
+float acos_exact(float x) { return 0.5 * PI - asin_exact(x); }
 
 // An orthonormal basis around a unit vector (Duff et al. 2017).
 struct Basis { vec3 x; vec3 y; vec3 z; };
@@ -50,7 +77,7 @@ float turns(vec2 p)
 }
 
 // uv of a point on the unit sphere: longitude about +z from +x, and latitude. The z of p may be off by rounding.
-vec2 sphere_uv(vec3 p) { return vec2(turns(p.xy), 0.5 + asin(clamp(p.z, -1.0, 1.0)) * INV_PI); }
+vec2 sphere_uv(vec3 p) { return vec2(turns(p.xy), 0.5 + asin_exact(p.z) * INV_PI); }
 
 // uv of a point in the unit disk: angle from +x, and 1 at the centre down to 0 at the rim.
 vec2 disk_uv(vec2 p) { return vec2(turns(p), 1.0 - length(p)); }

@@ -71,8 +71,8 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
         s.position = p;
         s.object_position = object_point(instance, p);
     }
-    s.geometric = normalize(geometric);
-    s.normal = normalize(normal);
+    s.geometric = normalize_or(geometric, -direction);
+    s.normal = normalize_or(normal, s.geometric);
     if (dot(s.normal, s.geometric) < 0.0) s.normal = -s.normal;
     s.material = triangle.material != NONE ? triangle.material : instance.material;
     s.light = instance.light == NONE ? NONE : instance.light + instance.light_stride * primitive;

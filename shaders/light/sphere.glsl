@@ -55,9 +55,11 @@ LightSample sphere_sample_light(Light light, vec3 from, vec2 u01)
     float one_minus_cos = u01.x * one_minus_cos_max;
     float cos_theta = 1.0 - one_minus_cos;
     float sin2 = one_minus_cos * (1.0 + cos_theta);
-    // The angle at the centre, from the angle at the receiver.
-    float cos_alpha = sin2 * inversesqrt(sin2_max) + cos_theta * safe_sqrt(1.0 - sin2 / sin2_max);
-    float sin_alpha = safe_sqrt(1.0 - sqr(cos_alpha));
+    // The angle at the centre, from the angle at the receiver. Its sine by the way to the point, (d² − r²) / (d cos θ + …),
+    // because near the sphere its cosine is next to 1
+    float root = safe_sqrt(1.0 - sin2 / sin2_max);
+    float cos_alpha = sin2 * inversesqrt(sin2_max) + cos_theta * root;
+    float sin_alpha = sqrt(sin2) * (d2 - sqr(radius)) / (radius * (sqrt(d2) * cos_theta + radius * root));
     float phi = 2.0 * PI * u01.y;
     vec3 towards = -axis * inversesqrt(d2);
     vec3 n = basis_to_world(basis_around(towards), vec3(sin_alpha * cos(phi), sin_alpha * sin(phi), cos_alpha));

@@ -1,9 +1,11 @@
 //! Runs a few lines of GLSL that call leaf functions of `shaders/` over an array, on the device.
+#![allow(clippy::panic, reason = "what fails here fails the test that called it")]
 
+use std::collections::HashMap;
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use dapple::gpu::{Command, DeviceChoice, Gpu, Place};
+use dapple::gpu::{Command, DeviceChoice, Gpu, Layout, Pipeline, Place};
 use dapple::layout::{Backend, Frame, WORKGROUP};
 use dapple::shader::{CacheOptions, Compiler, KernelKey, Sources};
 
@@ -20,7 +22,10 @@ const NO_TEXTURES: &str = "#include \"texture/context.glsl\"\n\
 /// The device that the tests of a program share.
 pub struct Probe {
     gpu: Arc<Gpu>,
+    kernels: Mutex<HashMap<(String, Backend), Kernel>>,
 }
+
+type Kernel = (Arc<Layout>, Arc<Pipeline>);
 
 impl Probe {
     /// Opens the device on the first call, with the validation layer when `DAPPLE_VALIDATION` is set.
@@ -29,7 +34,8 @@ impl Probe {
         SHARED.get_or_init(|| {
             let validation = std::env::var_os("DAPPLE_VALIDATION").is_some_and(|v| !v.is_empty() && v != "0");
             let choice = DeviceChoice { validation, ..DeviceChoice::default() };
-            Probe { gpu: Arc::new(Gpu::open(&choice).unwrap_or_else(|error| panic!("{error}"))) }
+            let gpu = Arc::new(Gpu::open(&choice).unwrap_or_else(|error| panic!("{error}")));
+            Probe { gpu, kernels: Mutex::default() }
         })
     }
 
@@ -70,6 +76,27 @@ impl Probe {
         self.try_run(glsl, backend, frame, inputs, outputs).unwrap_or_else(|error| panic!("{error}\n{glsl}"))
     }
 
+    /// The kernel, made once: drivers take longer to compile it than to run it.
+    fn kernel(&self, glsl: &str, backend: Backend) -> dapple::Result<Kernel> {
+        let name = (glsl.to_owned(), backend);
+        let made = self.kernels.lock().unwrap_or_else(PoisonError::into_inner).get(&name).cloned();
+        if let Some(kernel) = made {
+            return Ok(kernel);
+        }
+        let mut sources = sources()?;
+        sources.set_virtual("generated/probe.glsl", glsl)?;
+        let compiler = Compiler::new(sources, cache());
+        let mut key = KernelKey::new("probe.comp");
+        if backend == Backend::Texel {
+            key = key.define("TEXEL_FETCH", 1);
+        }
+        let layout = self.gpu.layout(backend)?;
+        let pipeline = self.gpu.pipeline("probe.comp", &layout, &compiler.kernel(&key)?.words)?;
+        let kernel = (layout, pipeline);
+        self.kernels.lock().unwrap_or_else(PoisonError::into_inner).insert(name, kernel.clone());
+        Ok(kernel)
+    }
+
     fn try_run(
         &self,
         glsl: &str,
@@ -79,16 +106,7 @@ impl Probe {
         outputs: usize,
     ) -> dapple::Result<Vec<Word>> {
         let gpu = &self.gpu;
-        let mut sources = sources()?;
-        sources.set_virtual("generated/probe.glsl", glsl)?;
-        let compiler = Compiler::new(sources, cache());
-        let mut key = KernelKey::new("probe.comp");
-        if backend == Backend::Texel {
-            key = key.define("TEXEL_FETCH", 1);
-        }
-        let layout = gpu.layout(backend)?;
-        let pipeline = gpu.pipeline("probe.comp", &layout, &compiler.kernel(&key)?.words)?;
-
+        let (layout, pipeline) = self.kernel(glsl, backend)?;
         let block = gpu.upload("frame", bytemuck::bytes_of(frame))?;
         let points = gpu.upload("points", bytemuck::cast_slice(inputs))?;
         let bytes = outputs as u64 * 16;

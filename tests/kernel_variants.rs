@@ -1,0 +1,298 @@
+//! Every kind of kernel variant: compiles on both back ends, keeps to the table of bindings, is portable, and is valid.
+#![allow(clippy::panic, clippy::unwrap_used, reason = "helpers of tests fail the test that called them")]
+
+mod common;
+
+use common::probe::{cache, sources};
+use dapple::layout::{BINDINGS, Backend, Binding, BindingKind, WORKGROUP};
+use dapple::prepare::{self, Prepared, Stage};
+use dapple::render;
+use dapple::scene::{
+    Aperture, Channel, ColorSpace, Conductor, Dielectric, Emission, Environment, FilterKind, Fresnel, Handle,
+    Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Sampler, Scene, Shape, ShapeKind,
+    Surface, TexelFilter, Texels, Texture, UvTransform, Value, Wrap,
+};
+use dapple::shader::{BindingClass, Compiler, Reflection, Spirv, reflect, scan, translates_to_wgsl};
+use glam::{Affine3A, Mat3, Vec3};
+use std::collections::BTreeMap;
+use std::io::Write as _;
+
+fn constant(x: f32) -> Value<Vec3> {
+    Value::Constant(Vec3::splat(x))
+}
+
+fn diffuse(color: f32) -> Surface {
+    Surface::Diffuse { color: constant(color) }
+}
+
+fn glass(ior: f32, alpha: [f32; 2], absorption: f32) -> Surface {
+    let [alpha_u, alpha_v] = alpha.map(Value::Constant);
+    Surface::Dielectric(Dielectric {
+        ior,
+        alpha_u,
+        alpha_v,
+        absorption: Vec3::splat(absorption),
+        thin: false,
+    })
+}
+
+fn material(scene: &mut Scene, surface: Surface, light: Option<Value<Vec3>>) -> Handle<Material> {
+    let emission = light.map(|radiance| Emission { radiance, two_sided: false });
+    scene.materials.add("material", Material { surface, emission })
+}
+
+fn place_triangle(scene: &mut Scene, material: Handle<Material>, copies: u32) {
+    let triangle = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        triangles: vec![[0, 1, 2]],
+        parts: vec![MeshPart { name: String::new(), triangles: 0..1, material: None }],
+        ..Mesh::default()
+    };
+    let mesh = scene.meshes.add("mesh", triangle);
+    for i in 0..copies {
+        let world_from_object = Affine3A::from_translation(Vec3::Z * i as f32);
+        scene.instances.push(Instance { name: "instance".into(), mesh, material, world_from_object });
+    }
+}
+
+fn place_shape(scene: &mut Scene, material: Handle<Material>, kind: ShapeKind) {
+    let world_from_object = Affine3A::IDENTITY;
+    scene.shapes.push(Shape { name: "shape".into(), kind, material, world_from_object });
+}
+
+fn sphere() -> ShapeKind {
+    ShapeKind::Sphere { center: Vec3::ZERO, radius: 1.0, pole: Vec3::Y, meridian: Vec3::X }
+}
+
+fn disk() -> ShapeKind {
+    ShapeKind::Disk { center: Vec3::ZERO, normal: Vec3::Y, radius: 1.0, meridian: Vec3::X }
+}
+
+fn quad() -> ShapeKind {
+    ShapeKind::Quad { origin: Vec3::ZERO, edge_u: Vec3::X, edge_v: Vec3::Z }
+}
+
+fn surroundings(radiance: Value<Vec3>) -> Option<Environment> {
+    Some(Environment { radiance, scale: 2.0, world_from_environment: Mat3::IDENTITY })
+}
+
+fn texture(scene: &mut Scene, texels: Texels, color_space: ColorSpace) -> Handle<Texture> {
+    let image = scene.images.add("image", Image { width: 2, height: 1, texels });
+    let texture = ImageTexture {
+        image,
+        filter: TexelFilter::Bilinear,
+        wrap: [Wrap::Repeat, Wrap::Mirror],
+        uv: UvTransform::default(),
+        color_space,
+        channel: Channel::Rgb,
+        scale: 1.0,
+        invert: false,
+    };
+    scene.textures.add("texture", Texture::Image(texture))
+}
+
+fn plain() -> Scene {
+    let mut scene = Scene::default();
+    let grey = material(&mut scene, diffuse(0.5), None);
+    place_triangle(&mut scene, grey, 1);
+    scene.lights.push(Light::Point { position: Vec3::Y, intensity: Vec3::ONE });
+    scene.render.sampler = Sampler::Center;
+    scene.render.russian_roulette = false;
+    scene
+}
+
+fn shapes() -> Scene {
+    let mut scene = Scene::default();
+    let unlit = material(&mut scene, Surface::Unlit { color: constant(1.0) }, None);
+    let lamp = material(&mut scene, diffuse(0.0), Some(constant(1.0)));
+    place_triangle(&mut scene, unlit, 3);
+    place_triangle(&mut scene, lamp, 1);
+    for kind in [sphere(), disk(), quad()] {
+        place_shape(&mut scene, lamp, kind);
+    }
+    let (position, direction) = (Vec3::Y, -Vec3::Y);
+    scene.lights.extend([
+        Light::Spot { position, direction, intensity: Vec3::ONE, cone_angle: 30.0, falloff_angle: 5.0 },
+        Light::Distant { direction, irradiance: Vec3::ONE },
+    ]);
+    let aperture = Aperture::Radius(0.1);
+    scene.camera.lens = Some(Lens { aperture, focus_distance: 2.0, blades: 6, blade_rotation: 0.0 });
+    scene.render.sampler = Sampler::Stratified;
+    scene.render.geometric_veto = true;
+    scene.film.filter.kind = FilterKind::Gaussian;
+    scene
+}
+
+fn lobes() -> Scene {
+    let mut scene = Scene::default();
+    let [alpha_u, alpha_v] = [0.1, 0.4].map(Value::Constant);
+    let metal = Conductor { reflectance: constant(0.9), fresnel: Fresnel::Schlick, alpha_u, alpha_v };
+    let phong =
+        Surface::Phong { diffuse: constant(0.4), specular: constant(0.4), exponent: Value::Constant(30.0) };
+    let surfaces =
+        [glass(1.5, [0.0, 0.0], 1.0), glass(1.3, [0.3, 0.2], 0.0), Surface::Conductor(metal), phong];
+    for surface in surfaces {
+        let m = material(&mut scene, surface, None);
+        place_shape(&mut scene, m, sphere());
+    }
+    scene.environment = surroundings(constant(1.0));
+    scene.render.sampler = Sampler::Random;
+    scene.film.filter.kind = FilterKind::BlackmanHarris;
+    scene
+}
+
+fn textured() -> Scene {
+    let mut scene = Scene::default();
+    let bytes = || Texels::Rgba8(vec![[9, 99, 200, 255]; 2]);
+    let srgb = texture(&mut scene, bytes(), ColorSpace::Srgb);
+    let linear = texture(&mut scene, bytes(), ColorSpace::Linear);
+    let half = texture(&mut scene, Texels::Rgba16(vec![[9, 99, 2000, 65535]; 2]), ColorSpace::Linear);
+    let float = texture(&mut scene, Texels::RgbaF32(vec![[0.5, 2.0, 3.0, 1.0]; 2]), ColorSpace::Linear);
+    let shade = Surface::Diffuse { color: Value::Texture(srgb) };
+    let lamp = material(&mut scene, shade, Some(Value::Texture(half)));
+    let phong = Surface::Phong {
+        diffuse: Value::Texture(linear),
+        specular: Value::Texture(half),
+        exponent: Value::Texture(float),
+    };
+    let phong = material(&mut scene, phong, None);
+    let metal = Conductor {
+        reflectance: Value::Texture(srgb),
+        fresnel: Fresnel::Exact,
+        alpha_u: Value::Texture(linear),
+        alpha_v: Value::Texture(linear),
+    };
+    let metal = material(&mut scene, Surface::Conductor(metal), None);
+    place_triangle(&mut scene, lamp, 1);
+    place_triangle(&mut scene, phong, 2);
+    place_shape(&mut scene, metal, disk());
+    place_shape(&mut scene, lamp, quad());
+    scene.environment = surroundings(Value::Texture(float));
+    scene.render.sampler = Sampler::Regular;
+    scene.film.filter.kind = FilterKind::Tent;
+    scene
+}
+
+/// Scenes that together switch every feature on and off.
+fn scenes() -> [(&'static str, Scene); 5] {
+    [
+        ("empty", Scene::default()),
+        ("one triangle and a point light", plain()),
+        ("shapes, instances, area lights, a lens", shapes()),
+        ("glass, metal, Phong, a constant environment", lobes()),
+        ("textures everywhere", textured()),
+    ]
+}
+
+/// Every kernel of every scene on a back end, each once.
+fn kernels(backend: Backend) -> Vec<(String, Spirv)> {
+    let mut found = BTreeMap::new();
+    for (name, scene) in scenes() {
+        let prepared: Prepared = prepare::prepare(&scene).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let mut sources = sources().unwrap();
+        sources.set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str()).unwrap();
+        let compiler = Compiler::new(sources, cache());
+        for stage in Stage::ALL {
+            let key = render::key(&scene, &prepared, stage, backend);
+            let spirv = compiler.kernel(&key).unwrap_or_else(|e| panic!("{name}: {key}: {e}"));
+            found.insert(spirv.words.clone(), (format!("{name}: {key}"), spirv));
+        }
+    }
+    let kernels: Vec<_> = found.into_values().collect();
+    assert!(kernels.len() > 15, "{} kernels", kernels.len());
+    kernels
+}
+
+/// What a binding of the table may be reflected as: number and class.
+fn allowed(binding: &Binding, backend: Backend) -> Vec<(u32, BindingClass)> {
+    let storage = (binding.number, BindingClass::Storage);
+    match (binding.kind, backend, binding.view) {
+        (BindingKind::Uniform, ..) => vec![(binding.number, BindingClass::Uniform)],
+        (BindingKind::Read, Backend::Texel, Some(view)) => vec![(view, BindingClass::TexelBuffer)],
+        (BindingKind::ReadWrite, Backend::Texel, Some(view)) => {
+            vec![storage, (view, BindingClass::TexelBuffer)]
+        }
+        _ => vec![storage],
+    }
+}
+
+/// Fails for a binding that the table does not have; counts the others.
+fn check_bindings(
+    name: &str,
+    bindings: impl Iterator<Item = (u32, u32, BindingClass)>,
+    backend: Backend,
+) -> usize {
+    let table: BTreeMap<u32, BindingClass> = BINDINGS.iter().flat_map(|b| allowed(b, backend)).collect();
+    let mut count = 0;
+    for (set, number, class) in bindings {
+        assert_eq!(set, 0, "{name}");
+        assert_eq!(table.get(&number), Some(&class), "{name}: binding {number}");
+        count += 1;
+    }
+    count
+}
+
+#[test]
+fn storage_kernels_are_portable_and_keep_to_the_table() {
+    for (name, spirv) in kernels(Backend::Storage) {
+        let Reflection { local_size, bindings } =
+            reflect(&spirv.words).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(local_size, [WORKGROUP, 1, 1], "{name}");
+        let used = bindings.iter().map(|b| (b.set, b.binding, b.class));
+        assert!(check_bindings(&name, used, Backend::Storage) > 0, "{name}");
+        for binding in &bindings {
+            let row = BINDINGS.iter().find(|b| b.number == binding.binding).unwrap();
+            let stride = match row.kind {
+                BindingKind::Uniform => None,
+                BindingKind::Uints => Some(4),
+                BindingKind::Read | BindingKind::ReadWrite => Some(16),
+            };
+            assert_eq!(binding.element_stride, stride, "{name}: {}", row.name);
+            if row.kind == BindingKind::Uniform {
+                assert_eq!(binding.size, Some(size_of::<dapple::layout::Frame>() as u32), "{name}");
+            }
+        }
+        translates_to_wgsl(&spirv.words).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let scanned = scan(&spirv.words).unwrap();
+        assert_eq!(scanned.local_size, local_size, "{name}");
+        let reflected: BTreeMap<_, _> = bindings.iter().map(|b| ((b.set, b.binding), b.class)).collect();
+        assert_eq!(scanned.bindings, reflected, "{name}");
+    }
+}
+
+#[test]
+fn texel_kernels_keep_to_the_table() {
+    let mut views = 0;
+    for (name, spirv) in kernels(Backend::Texel) {
+        let scanned = scan(&spirv.words).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(scanned.local_size, [WORKGROUP, 1, 1], "{name}");
+        let used = scanned.bindings.iter().map(|((set, binding), class)| (*set, *binding, *class));
+        assert!(check_bindings(&name, used, Backend::Texel) > 0, "{name}");
+        views += scanned.bindings.values().filter(|c| **c == BindingClass::TexelBuffer).count();
+    }
+    assert!(views > 20, "{views} texel buffers");
+}
+
+#[test]
+fn spirv_val_accepts_every_kernel() {
+    let tool = std::process::Command::new("spirv-val").arg("--version").output();
+    if tool.is_err() {
+        let text = "spirv-val is not installed (on Debian: apt-get install spirv-tools)";
+        assert!(std::env::var_os("CI").is_none_or(|v| v != "true"), "{text}");
+        eprintln!("SKIPPED: {text}");
+        return;
+    }
+    for backend in [Backend::Storage, Backend::Texel] {
+        for (name, spirv) in kernels(backend) {
+            let mut file = tempfile::NamedTempFile::new().unwrap();
+            file.write_all(bytemuck::cast_slice(&spirv.words)).unwrap();
+            let output = std::process::Command::new("spirv-val")
+                .args(["--target-env", "vulkan1.2"])
+                .arg(file.path())
+                .output()
+                .unwrap();
+            let text = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{name}: {text}{}", String::from_utf8_lossy(&output.stdout));
+        }
+    }
+}
