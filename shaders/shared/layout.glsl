@@ -143,7 +143,7 @@ Face face_unpack(uvec4 w0)
 }
 
 struct Vertex {
-    vec3 normal; // unit normal, or 0 when the mesh is flat
+    vec3 normal; // normal of any length, or 0 when the mesh is flat
     float u; // texture coordinate, rightward
     float v; // texture coordinate, upward
     vec3 spare; // room for a tangent

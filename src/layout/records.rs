@@ -216,7 +216,7 @@ records! {
 
     /// Shading data of a vertex.
     struct Vertex {
-        /// unit normal, or 0 when the mesh is flat
+        /// normal of any length, or 0 when the mesh is flat
         normal: [f32; 3],
         /// texture coordinate, rightward
         u: f32,

@@ -240,13 +240,13 @@ fn push_triangles(
     triangles: &mut Vec<Triangle>,
 ) {
     let mirrored = map.matrix3.determinant() < 0.0;
-    let normal_map: Mat3A = map.matrix3.inverse().transpose();
+    let normal_map = normal_map(map);
     let has_vertices = !mesh.normals.is_empty() || !mesh.uvs.is_empty();
     let needs_faces = has_vertices || shines;
     let first_vertex = out.vertices.len() as u32;
     if has_vertices {
         out.vertices.extend((0..mesh.positions.len()).map(|i| {
-            let normal = mesh.normals.get(i).map_or(Vec3::ZERO, |n| (normal_map * *n).normalize_or_zero());
+            let normal = mesh.normals.get(i).map_or(Vec3::ZERO, |n| normal_map * *n);
             let uv = mesh.uvs.get(i).copied().unwrap_or(Vec2::ZERO);
             Vertex { normal: normal.into(), u: uv.x, v: uv.y, spare: [0.0; 3] }
         }));
@@ -272,6 +272,14 @@ fn push_triangles(
             material: materials.get(i).copied().unwrap_or(NONE),
         });
     }
+}
+
+/// The map of normals, up to a factor that is the same for all: normals are interpolated before they get unit length, so
+/// that a mesh put into world space looks like one that is mapped by the kernels.
+fn normal_map(map: &Affine3A) -> Mat3A {
+    let m: Mat3A = map.matrix3.inverse().transpose();
+    let longest = m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
+    if longest > 0.0 { m * (1.0 / longest) } else { m }
 }
 
 /// Whether a mesh is a light in any of its instances.
