@@ -70,7 +70,8 @@ impl Gpu {
         // SAFETY: the allocation fits the requirements of this buffer, and nothing is bound to it yet.
         let bound = unsafe { device.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) };
         *buffer.allocation() = Some(allocation);
-        self.inner.allocated.fetch_add(bytes, Ordering::Relaxed);
+        let now = self.inner.allocated.fetch_add(bytes, Ordering::Relaxed) + bytes;
+        self.inner.allocated_peak.fetch_max(now, Ordering::Relaxed);
         check(bound, &format!("bind memory to buffer `{name}`"))?;
         Ok(Arc::new(buffer))
     }

@@ -6,6 +6,7 @@ use crate::{Error, Result};
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::mem::ManuallyDrop;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
 /// What kind of thing a device is, in the order in which dapple prefers them.
@@ -81,7 +82,8 @@ pub(super) struct Inner {
     pub(super) allocator: ManuallyDrop<Mutex<Allocator>>,
     pub(super) info: DeviceInfo,
     pub(super) instance: Arc<Instance>,
-    pub(super) allocated: std::sync::atomic::AtomicU64,
+    pub(super) allocated: AtomicU64,
+    pub(super) allocated_peak: AtomicU64,
 }
 
 /// All devices of this machine, in the order of the driver list.
@@ -131,7 +133,8 @@ impl Gpu {
                 allocator: ManuallyDrop::new(Mutex::new(allocator)),
                 info,
                 instance,
-                allocated: std::sync::atomic::AtomicU64::new(0),
+                allocated: AtomicU64::new(0),
+                allocated_peak: AtomicU64::new(0),
             }),
         })
     }
@@ -143,7 +146,12 @@ impl Gpu {
 
     /// Bytes of the buffers that are alive.
     pub fn allocated_bytes(&self) -> u64 {
-        self.inner.allocated.load(std::sync::atomic::Ordering::Relaxed)
+        self.inner.allocated.load(Ordering::Relaxed)
+    }
+
+    /// The most that [`Self::allocated_bytes`] was since this was last called, or since the device was opened.
+    pub fn take_peak_bytes(&self) -> u64 {
+        self.inner.allocated_peak.swap(self.allocated_bytes(), Ordering::Relaxed)
     }
 }
 

@@ -119,7 +119,7 @@ fn film_and_render() {
         ("[film]\nexposure = nan", "2:12: `exposure` is nan, must be finite"),
         ("[film]\npng_bits = 12", "2:12: `png_bits` is 12, must be 8 or 16"),
         ("[film]\ntransparent = 1", "2:15: `transparent` must be true or false, found a whole number"),
-        ("[render]\nspp = 0", "2:7: `spp` is 0, must be from 1 to 16777216"),
+        ("[render]\nspp = 0", "2:7: `spp` is 0, must be from 1 to 1048576"),
         ("[render]\nspp = 16.0", "2:7: `spp` must be a whole number, found a decimal number"),
         (
             "[render]\nsampler = 'halton'",

@@ -124,6 +124,7 @@ fn measure(name: &str, scene: &Scene, gpu: &Arc<Gpu>, options: Options, args: &B
         (prepared.triangles.len(), prepared.bvh_seconds.0, prepared.bvh_cost);
     drop(prepared);
 
+    gpu.take_peak_bytes();
     // From a scene in memory to the end of its first slice, with warm caches
     let start = Instant::now();
     let renderer = Renderer::open(gpu.clone(), &mut compiler(args, cache)?, scene, options)?;
@@ -144,7 +145,7 @@ fn measure(name: &str, scene: &Scene, gpu: &Arc<Gpu>, options: Options, args: &B
         best = best.min(start.elapsed().as_secs_f64());
         mean = mean_radiance(&film.resolve().rgb);
     }
-    let device_bytes = gpu.allocated_bytes();
+    let device_bytes = gpu.take_peak_bytes();
     let stages: Measured = renderer.measure(spp)?;
     Ok(Row {
         scene: name.to_owned(),

@@ -10,7 +10,7 @@ use crate::scene::{Film, Filter, FilterKind, Rect, Render, Sampler};
 
 /// Largest width and height in pixels.
 const MAX_SIZE: u32 = 16384;
-const MAX_SPP: u32 = 1 << 24;
+const MAX_SPP: u32 = 1 << 20;
 const MAX_STRATA: u32 = 4096;
 const MAX_DEPTH: u32 = 1000;
 /// Stops beyond which the factor leaves 32-bit floats.
