@@ -1,6 +1,13 @@
 //! The rooms of the house keep to their rows: which room uses which, where `unsafe` and `ash` may be, and how long a
 //! file may get. The table of rooms is explained in `ARCHITECTURE.md`.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "helpers of tests may panic: that is how they fail"
+)]
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
