@@ -49,11 +49,24 @@ float turns(vec2 p)
     return u < 0.0 ? u + 1.0 : u;
 }
 
-// uv of a point on the unit sphere: longitude about +z from +x, and latitude. The z of p may be off by rounding.
-vec2 sphere_uv(vec3 p) { return vec2(turns(p.xy), 0.5 + asin(clamp(p.z, -1.0, 1.0)) * INV_PI); }
+// v of a direction: its height over its distance from the axis, as latitude. By atan, since asin of Mesa is off by 2e-4.
+float latitude_v(float height, float from_axis) { return 0.5 + atan(height, from_axis) * INV_PI; }
+
+// uv of a point on the unit sphere: longitude about +z from +x, and latitude. The length of p may be off by rounding.
+vec2 sphere_uv(vec3 p) { return vec2(turns(p.xy), latitude_v(p.z, length(p.xy))); }
 
 // uv of a point in the unit disk: angle from +x, and 1 at the centre down to 0 at the rim.
 vec2 disk_uv(vec2 p) { return vec2(turns(p), 1.0 - length(p)); }
+
+// Arc cosine to 2e-8 and rounding (Abramowitz and Stegun 4.4.46); acos of Mesa is off by 1e-4.
+float arc_cosine(float x)
+{
+    float a = abs(x);
+    float series = 1.5707963050 + a * (-0.2145988016 + a * (0.0889789874 + a * (-0.0501743046 + a * (0.0308918810
+        + a * (-0.0170881256 + a * (0.0066700901 - a * 0.0012624911))))));
+    float angle = safe_sqrt(1.0 - a) * series;
+    return x < 0.0 ? PI - angle : angle;
+}
 
 // Balance of two sampling strategies, power heuristic with exponent 2 (Veach 1997, section 9.2.4).
 float power_heuristic(float own, float other)

@@ -9,7 +9,7 @@ struct SphericalRectangle {
     float solid_angle;                // 0 = not to be used
 };
 
-const float SPHERICAL_RECTANGLE_LEAST = 1e-4; // steradians; below it float rounding is worse than uniform area
+const float SPHERICAL_RECTANGLE_LEAST = 1e-3; // steradians; below it float rounding is worse than uniform area
 
 SphericalRectangle spherical_rectangle(Light light, vec3 from)
 {
@@ -32,10 +32,10 @@ SphericalRectangle spherical_rectangle(Light light, vec3 from)
     vec4 nz = vec4(r.y0, r.x1, r.y1, r.x0) * vec4(-1.0, 1.0, 1.0, -1.0);
     vec4 other = vec4(r.y0, r.x1, r.y1, r.x0);
     nz = nz * inversesqrt(max(r.z0 * r.z0 + other * other, 1e-30));
-    float g0 = acos(clamp(-nz.x * nz.y, -1.0, 1.0));
-    float g1 = acos(clamp(-nz.y * nz.z, -1.0, 1.0));
-    float g2 = acos(clamp(-nz.z * nz.w, -1.0, 1.0));
-    float g3 = acos(clamp(-nz.w * nz.x, -1.0, 1.0));
+    float g0 = arc_cosine(clamp(-nz.x * nz.y, -1.0, 1.0));
+    float g1 = arc_cosine(clamp(-nz.y * nz.z, -1.0, 1.0));
+    float g2 = arc_cosine(clamp(-nz.z * nz.w, -1.0, 1.0));
+    float g3 = arc_cosine(clamp(-nz.w * nz.x, -1.0, 1.0));
     r.b0 = nz.x;
     r.b1 = nz.z;
     r.k = 2.0 * PI - g2 - g3;
