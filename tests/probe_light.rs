@@ -119,7 +119,10 @@ fn light(kind: u32) -> Light {
 
 fn sphere(position: [f32; 3], radius: f32, two_sided: u32) -> Light {
     let area = (4.0 * PI * f64::from(radius).powi(2)) as f32;
-    Light { position, a: radius, b: area, two_sided, ..light(LIGHT_SPHERE) }
+    // Its axes are those of the world; the third is spread over the uv fields
+    let (edge_u, edge_v) = ([radius, 0.0, 0.0], [0.0, radius, 0.0]);
+    let uv1 = [radius, 0.0];
+    Light { position, edge_u, edge_v, uv1, a: radius, b: area, two_sided, ..light(LIGHT_SPHERE) }
 }
 
 fn flat(kind: u32, position: [f32; 3], edge_u: [f32; 3], edge_v: [f32; 3]) -> Light {
@@ -129,7 +132,7 @@ fn flat(kind: u32, position: [f32; 3], edge_u: [f32; 3], edge_v: [f32; 3]) -> Li
         LIGHT_TRIANGLE => 0.5,
         _ => 1.0,
     };
-    Light { position, edge_u, edge_v, b: (area * share) as f32, ..light(kind) }
+    Light { position, edge_u, edge_v, a: 1.0, b: (area * share) as f32, ..light(kind) }
 }
 
 #[test]

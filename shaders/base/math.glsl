@@ -76,8 +76,11 @@ float turns(vec2 p)
     return u < 0.0 ? u + 1.0 : u;
 }
 
-// uv of a point on the unit sphere: longitude about +z from +x, and latitude. The z of p may be off by rounding.
-vec2 sphere_uv(vec3 p) { return vec2(turns(p.xy), 0.5 + asin_exact(p.z) * INV_PI); }
+// v of a direction: its height over its distance from the axis, as latitude. By atan, since asin of Mesa is off by 2e-4.
+float latitude_v(float height, float from_axis) { return 0.5 + atan(height, from_axis) * INV_PI; }
+
+// uv of a point on the unit sphere: longitude about +z from +x, and latitude. The length of p may be off by rounding.
+vec2 sphere_uv(vec3 p) { return vec2(turns(p.xy), latitude_v(p.z, length(p.xy))); }
 
 // uv of a point in the unit disk: angle from +x, and 1 at the centre down to 0 at the rim.
 vec2 disk_uv(vec2 p) { return vec2(turns(p), 1.0 - length(p)); }

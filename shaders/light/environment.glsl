@@ -8,7 +8,7 @@ vec2 environment_uv(vec3 direction)
     vec3 d = vec3(dot(frame.environment_row0, direction), dot(frame.environment_row1, direction),
                   dot(frame.environment_row2, direction));
     float u = 0.5 + atan(d.x, -d.z) * INV_TWO_PI;
-    return vec2(u, 0.5 + asin_exact(d.y) * INV_PI);
+    return vec2(u, latitude_v(d.y, length(d.xz)));
 }
 
 vec3 environment_direction(vec2 uv)

@@ -67,9 +67,12 @@ vec4 wrapped_texel(ImageTexture image, uint format, ivec2 at)
 vec4 image_lookup(ImageTexture image, uint format, vec2 uv)
 {
     vec2 st = clamp(image.uv_column0 * uv.x + image.uv_column1 * uv.y + image.uv_offset, -16384.0, 16384.0);
-    vec2 p = vec2(st.x, 1.0 - st.y) * vec2(image.size);
-    if ((image.flags & FLAG_NEAREST) != 0u) return wrapped_texel(image, format, ivec2(floor(p)));
-    p -= 0.5;
+    if ((image.flags & FLAG_NEAREST) != 0u) {
+        // Rows are counted from the top, but [0, 1) is inside: v = 0 is in the last row, v = 1 is not in the first
+        ivec2 at = ivec2(floor(st * vec2(image.size)));
+        return wrapped_texel(image, format, ivec2(at.x, int(image.size.y) - 1 - at.y));
+    }
+    vec2 p = vec2(st.x, 1.0 - st.y) * vec2(image.size) - 0.5;
     vec2 corner = floor(p);
     vec2 f = p - corner;
     ivec2 i = ivec2(corner);

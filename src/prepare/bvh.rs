@@ -49,7 +49,11 @@ pub fn build(bounds: Vec<Bounds>, max_leaf: u32, quality: Quality) -> Tree {
     if bounds.is_empty() {
         return Tree { root: NONE, ..Tree::default() };
     }
+    let coincident = many_coincide(&bounds);
     let boxes: Vec<Boxed> = bounds.into_iter().map(Boxed).collect();
+    if coincident {
+        return balanced(&boxes, max_leaf);
+    }
     let tree =
         Tree::from_obvhs(&build_bvh2(&boxes, params(max_leaf, quality), &mut std::time::Duration::default()));
     match tree {
@@ -64,6 +68,18 @@ fn params(max_leaf: u32, quality: Quality) -> BvhBuildParams {
         Quality::High => BvhBuildParams::medium_build(),
     };
     BvhBuildParams { pre_split: false, max_prims_per_leaf: max_leaf.min(MAX_LEAF), ..base }
+}
+
+/// Whether more than about a thousand boxes are one and the same. The builder joins pairs of nearest neighbours, of which
+/// there are few when all are as near: it takes time by the square of their number, minutes for 10⁵.
+fn many_coincide(bounds: &[Bounds]) -> bool {
+    const MOST: usize = 1000;
+    const LOOKED_AT: usize = 4096;
+    let step = bounds.len().div_ceil(LOOKED_AT).max(1);
+    let key = |b: &Bounds| [b.min.to_array(), b.max.to_array()].map(|p| p.map(f32::to_bits));
+    let mut keys: Vec<_> = bounds.iter().step_by(step).map(key).collect();
+    keys.sort_unstable();
+    keys.chunk_by(|a, b| a == b).any(|same| same.len() * step > MOST && same.len() >= 8)
 }
 
 fn leaf(first: u32, count: u32) -> u32 {
