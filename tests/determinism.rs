@@ -175,7 +175,7 @@ fn rays_are_parked_where_loops_would_be_cut() {
         let mut scene = Scene::default();
         (scene.film.width, scene.film.height) = (8, 8);
         scene.render.max_depth = 1;
-        scene.camera.position = Vec3::new(0.0, 0.0, 2.0);
+        scene.camera.position = Vec3::new(0.0, 0.0, 4.0);
         let material = diffuse(&mut scene, 0.5);
         let mesh = scene.meshes.add("stack", triangles(count));
         let world_from_object = Affine3A::IDENTITY;
@@ -188,7 +188,7 @@ fn rays_are_parked_where_loops_would_be_cut() {
         };
         scene.shapes = vec![shape(wall, material)];
         scene.lights = vec![dapple::scene::Light::Point {
-            position: Vec3::new(0.3, 0.4, 3.0),
+            position: Vec3::new(2.0, 0.4, 2.0),
             intensity: Vec3::splat(20.0),
         }];
         render(&scene, |options| options, 0, 1).resolve()
