@@ -3,7 +3,6 @@
 use super::blob;
 use dapple::scene::Mesh;
 use dapple::{Error, Result};
-use std::io::Write as _;
 use std::path::Path;
 
 const SCENE: &str = "\
@@ -65,9 +64,7 @@ pub(super) fn write(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(|error| fail(folder, &error))?;
     for (name, bytes) in [("blob.ply", ply(&blob::mesh(7))), ("blob.toml", SCENE.as_bytes().to_vec())] {
         let path = folder.join(name);
-        let mut file = tempfile::NamedTempFile::new_in(folder).map_err(|error| fail(&path, &error))?;
-        file.write_all(&bytes).map_err(|error| fail(&path, &error))?;
-        file.persist(&path).map_err(|error| fail(&path, &error.error))?;
+        std::fs::write(&path, bytes).map_err(|error| fail(&path, &error))?;
     }
     Ok(())
 }
