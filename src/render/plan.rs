@@ -114,9 +114,10 @@ impl Plan {
 }
 
 /// Samples of a pass: as many as fill a slice when the picture is small, at most [`MOST_PASS_SAMPLES`]; a few when it is
-/// large, so that the rays of a pixel and the words of the film are used while they are near.
+/// large, so that the rays of a pixel and the words of the film are used while they are near. Never more than fit a slice
+/// of one tile: buffers are made for `capacity` workgroups.
 fn pass_samples(capacity: u32, tiles: u32) -> u32 {
-    (capacity / tiles).clamp(FEW_SAMPLES, MOST_PASS_SAMPLES)
+    (capacity / tiles).clamp(FEW_SAMPLES, MOST_PASS_SAMPLES).min(capacity)
 }
 
 const FEW_SAMPLES: u32 = 4;
@@ -153,6 +154,16 @@ mod tests {
                 }
             }
             prop_assert!(seen.iter().all(|&n| n == 1));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn slices_fit_the_slots(tiles in 1..200_u32, spp in 1..70_u32, groups in 1..5000_u32) {
+            let mut plan = Plan::new(tiles, tiles, 0, spp);
+            while let Some(slice) = plan.next(groups * WORKGROUP) {
+                prop_assert!(slice.slots() <= groups * WORKGROUP);
+            }
         }
     }
 
