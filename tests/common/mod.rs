@@ -3,4 +3,5 @@
 
 pub mod compare;
 pub mod references;
+pub mod render;
 pub mod student;
