@@ -1,200 +1,197 @@
-//! The same scene gives the same sums, however the work is cut: slices, runs, windows, threads, back ends, parked rays.
+//! The same scene, seed and device give the same sums, however the work is cut.
 
+mod common;
+
+use common::render::*;
 use dapple::film::Film;
-use dapple::gpu::{DeviceChoice, Gpu};
 use dapple::layout::Backend;
-use dapple::prepare;
-use dapple::render::{Next, Options, Renderer, Slicing};
-use dapple::scene::{
-    Conductor, Dielectric, Emission, Environment, Fresnel, Handle, Instance, Lens, Material, Mesh, Rect,
-    Scene, Shape, ShapeKind, Surface, Value,
-};
-use dapple::shader::{CacheOptions, Compiler, Sources};
-use glam::{Affine3A, Mat3, Vec3};
-use std::sync::{Arc, LazyLock};
+use dapple::prepare::prepare;
+use dapple::render::{Next, Options, Slicing};
+use dapple::scene::*;
+use glam::{Affine3A, Quat, Vec2, Vec3};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::time::Duration;
 
-static GPU: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(|| {
-    let validation = std::env::var_os("DAPPLE_VALIDATION").is_some();
-    let choice = DeviceChoice { validation, ..DeviceChoice::default() };
-    Gpu::open(&choice).map(Arc::new).map_err(|error| error.to_string())
-});
-
-fn render(scene: &Scene, options: impl FnOnce(Options) -> Options, first: u32, spp: u32) -> Film {
-    let result = GPU.clone().and_then(|gpu| {
-        let mut compiler = Compiler::new(Sources::embedded(), CacheOptions::from_environment());
-        let options = options(Options::of(&gpu));
-        Renderer::open(gpu, &mut compiler, scene, options)
-            .and_then(|renderer| renderer.render(first, spp, &mut |_| Next::Continue))
-            .map_err(|error| error.to_string())
-    });
-    match result {
-        Ok(film) => film,
-        Err(error) => {
-            assert!(error.is_empty(), "{error}");
-            std::process::exit(1)
-        }
-    }
+/// Something of everything: a mesh of its own tree, a baked one, spheres, disks, all materials, all kinds of light, pictures,
+/// a lens. 37 × 21 pixels, so that tiles reach beyond the picture.
+fn everything() -> Scene {
+    let mut s = scene(37, 21, 8);
+    s.camera = look(Vec3::new(0.0, 1.5, 5.0), Vec3::new(0.0, 0.5, 0.0), 50.0);
+    let aperture = Aperture::Radius(0.05);
+    s.camera.lens = Some(Lens { aperture, focus_distance: 5.0, blades: 5, blade_rotation: 10.0 });
+    let mut random = Random(3);
+    let texels = (0..15 * 7).map(|_| [0; 4].map(|_: u8| (random.uniform() * 256.0) as u8)).collect();
+    let image = Image { width: 15, height: 7, texels: Texels::Rgba8(texels) };
+    let picture = Value::Texture(s.picture(image, |t| t.color_space = ColorSpace::Srgb));
+    let floor = s.material(Surface::Diffuse { color: picture }, None);
+    s.quad(Vec3::new(-6.0, 0.0, 6.0), Vec3::X * 12.0, Vec3::NEG_Z * 12.0, floor);
+    let phong = s.material(
+        Surface::Phong { diffuse: grey(0.3), specular: picture, exponent: Value::Constant(20.0) },
+        None,
+    );
+    let metal = s.conductor(0.9, 0.2, Fresnel::Exact);
+    let mirror = s.conductor(0.9, 0.0, Fresnel::Schlick);
+    let clear = s.glass(1.5, 0.0, Vec3::new(0.1, 0.4, 0.2), false);
+    let rough = s.glass(1.4, 0.15, Vec3::ZERO, false);
+    s.sphere(Vec3::new(-1.8, 0.6, 0.5), 0.6, clear);
+    s.sphere(Vec3::new(-0.3, 0.5, 1.2), 0.5, rough);
+    s.sphere(Vec3::new(1.2, 0.7, -0.4), 0.7, mirror);
+    s.disk(Vec3::new(2.2, 0.8, 0.3), Vec3::new(-1.0, 0.2, 0.5).normalize(), 0.6, metal);
+    let bar = s.meshes.add("bar", box_mesh(Vec3::new(-0.3, 0.0, -0.3), Vec3::new(0.3, 1.0, 0.3), false));
+    s.place(
+        bar,
+        phong,
+        Affine3A::from_rotation_translation(Quat::from_rotation_y(0.5), Vec3::new(0.3, 0.0, -1.5)),
+    );
+    s.place(
+        bar,
+        metal,
+        Affine3A::from_scale_rotation_translation(
+            Vec3::new(-1.0, 2.0, 1.0),
+            Quat::IDENTITY,
+            Vec3::new(-2.5, 0.0, -2.0),
+        ),
+    );
+    let lamp = s.emitter(grey(6.0), false);
+    s.quad(Vec3::new(-0.5, 3.0, -0.5), Vec3::X, Vec3::Z, lamp);
+    let glow = s.emitter(picture, true);
+    let mut sheet = rectangle_mesh(Vec3::new(-3.0, 0.5, 1.0), Vec3::new(0.3, 0.0, -1.0), Vec3::Y);
+    sheet.uvs = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+    let sheet = s.meshes.add("sheet", sheet);
+    s.place(sheet, glow, Affine3A::IDENTITY);
+    s.lights.push(point(Vec3::new(2.0, 2.0, 2.0), 3.0));
+    s.environment = constant_environment(0.2);
+    s
 }
 
-fn with_slots(slots: u32) -> impl FnOnce(Options) -> Options {
-    move |options| Options { slicing: Slicing { slots, ..options.slicing }, ..options }
+fn with_slots(slots: u32) -> Options {
+    Options { slicing: Slicing { slots, budget: Duration::from_millis(60) }, ..options() }
 }
 
-fn shape(kind: ShapeKind, material: Handle<Material>) -> Shape {
-    Shape { name: "shape".into(), kind, material, world_from_object: Affine3A::IDENTITY }
-}
-
-fn diffuse(scene: &mut Scene, color: f32) -> Handle<Material> {
-    let surface = Surface::Diffuse { color: Value::Constant(Vec3::splat(color)) };
-    scene.materials.add("diffuse", Material { surface, emission: None })
-}
-
-/// Spheres of clay, metal and glass, two copies of a mesh, a lamp and a sky, seen through a lens: 37 × 29 pixels.
-fn scene() -> Scene {
-    let mut scene = Scene::default();
-    (scene.film.width, scene.film.height) = (37, 29);
-    scene.render.max_depth = 6;
-    scene.camera.position = Vec3::new(0.0, 1.0, 6.0);
-    scene.camera.lens = Some(Lens {
-        aperture: dapple::scene::Aperture::Radius(0.05),
-        focus_distance: 6.0,
-        blades: 5,
-        blade_rotation: 10.0,
-    });
-    let clay = diffuse(&mut scene, 0.6);
-    let zero = Value::Constant(0.0);
-    let glass =
-        Dielectric { ior: 1.5, alpha_u: zero, alpha_v: zero, absorption: Vec3::splat(0.2), thin: false };
-    let metal = Conductor {
-        reflectance: Value::Constant(Vec3::splat(0.8)),
-        fresnel: Fresnel::Exact,
-        alpha_u: Value::Constant(0.2),
-        alpha_v: Value::Constant(0.2),
-    };
-    let lamp = Emission { radiance: Value::Constant(Vec3::splat(8.0)), two_sided: true };
-    let mut add = |surface, emission| scene.materials.add("material", Material { surface, emission });
-    let glass = add(Surface::Dielectric(glass), None);
-    let metal = add(Surface::Conductor(metal), None);
-    let lamp = add(Surface::Diffuse { color: Value::Constant(Vec3::ZERO) }, Some(lamp));
-    let sphere = |x: f32| ShapeKind::Sphere {
-        center: Vec3::new(x, 0.0, 0.0),
-        radius: 0.7,
-        pole: Vec3::Y,
-        meridian: Vec3::X,
-    };
-    let quad = |origin, edge_u, edge_v| ShapeKind::Quad { origin, edge_u, edge_v };
-    let floor = quad(Vec3::new(-9.0, -0.7, 9.0), Vec3::X * 18.0, Vec3::NEG_Z * 18.0);
-    let light = quad(Vec3::new(-1.0, 3.0, -1.0), Vec3::X * 2.0, Vec3::Z * 2.0);
-    scene.shapes = vec![
-        shape(sphere(-1.6), clay),
-        shape(sphere(0.0), glass),
-        shape(sphere(1.6), metal),
-        shape(floor, clay),
-        shape(light, lamp),
-    ];
-    let mesh = scene.meshes.add("triangle", triangles(1));
-    for x in [-1.0, 1.0] {
-        let world_from_object = Affine3A::from_translation(Vec3::new(x, 1.0, -1.0));
-        scene.instances.push(Instance { name: "copy".into(), mesh, material: clay, world_from_object });
-    }
-    scene.environment = Some(Environment {
-        radiance: Value::Constant(Vec3::new(0.2, 0.3, 0.4)),
-        scale: 1.0,
-        world_from_environment: Mat3::IDENTITY,
-    });
-    scene
-}
-
-/// The same triangle `count` times.
-fn triangles(count: usize) -> Mesh {
-    Mesh {
-        positions: vec![Vec3::new(-0.8, -0.6, 0.0), Vec3::new(0.8, -0.6, 0.1), Vec3::new(0.0, 0.8, 0.2)],
-        triangles: vec![[0, 1, 2]; count],
-        ..Mesh::default()
-    }
+fn render_range(scene: &Scene, options: Options, first: u32, spp: u32) -> Film {
+    open(scene, options).render(first, spp, &mut |_| Next::Continue).unwrap()
 }
 
 #[test]
-fn sums_do_not_depend_on_slices() {
-    let scene = scene();
-    let whole = render(&scene, |options| options, 0, 8);
+fn sums_do_not_depend_on_slicing() {
+    let scene = everything();
+    let whole = film_of(&scene, with_slots(65_536));
     assert_eq!(whole.left_out(), 0);
-    for slots in [64, 4096, 65_536] {
-        assert!(whole == render(&scene, with_slots(slots), 0, 8), "{slots} slots");
+    for slots in [64, 4096] {
+        assert!(film_of(&scene, with_slots(slots)) == whole, "{slots} slots");
     }
+    // A budget that is never kept, so that slices shrink as they go
+    let hurried = Options { slicing: Slicing { slots: 65_536, budget: Duration::ZERO }, ..options() };
+    assert!(film_of(&scene, hurried) == whole, "no budget");
+    let mut other = scene;
+    other.render.seed = 1;
+    assert!(
+        film_of(&other, with_slots(65_536)).resolve().rgb != whole.resolve().rgb,
+        "the seed does nothing"
+    );
 }
 
 #[test]
-fn runs_that_share_the_samples_merge_to_the_same_sums() {
-    let scene = scene();
-    let mut first = render(&scene, |options| options, 0, 3);
-    first.merge(&render(&scene, |options| options, 3, 5)).unwrap();
-    assert!(first == render(&scene, |options| options, 0, 8));
-    assert!(first != render(&scene, |options| options, 1, 8), "other samples must differ");
+fn ranges_of_samples_merge_to_the_whole() {
+    let scene = everything();
+    let whole = render_range(&scene, options(), 0, 8);
+    let mut parts = render_range(&scene, options(), 3, 5);
+    parts.merge(&render_range(&scene, options(), 0, 3)).unwrap();
+    assert!(parts == whole);
+    assert!(render_range(&scene, options(), 0, 3) != render_range(&scene, options(), 3, 3));
 }
 
 #[test]
-fn a_window_has_the_pixels_of_the_whole_picture() {
-    let mut scene = scene();
-    let whole = render(&scene, |options| options, 0, 4).resolve();
-    let window = Rect { x0: 5, y0: 3, x1: 26, y1: 20 };
-    scene.film.crop = Some(window);
-    let part = render(&scene, |options| options, 0, 4).resolve();
-    for y in window.y0..window.y1 {
-        for x in window.x0..window.x1 {
-            let in_part = ((y - window.y0) * window.width() + x - window.x0) as usize;
-            assert_eq!(part.rgb[in_part], whole.rgb[(y * 37 + x) as usize], "pixel {x}, {y}");
+fn a_render_that_is_stopped_has_whole_passes() {
+    let mut scene = everything();
+    scene.render.spp = 64;
+    let stopped = open(&scene, with_slots(256))
+        .render(0, 64, &mut |p| if p.spp >= 8 { Next::Stop } else { Next::Continue })
+        .unwrap();
+    let samples = stopped.resolve().samples;
+    assert!(samples[0] >= 8 && samples[0] < 64 && samples.iter().all(|&n| n == samples[0]), "{}", samples[0]);
+    assert!(stopped == render_range(&scene, options(), 0, samples[0]));
+}
+
+#[test]
+fn a_crop_has_the_pixels_of_the_whole() {
+    let mut scene = everything();
+    let whole = film_of(&scene, options()).resolve();
+    for crop in [
+        Rect { x0: 5, y0: 3, x1: 22, y1: 20 },
+        Rect { x0: 36, y0: 20, x1: 37, y1: 21 },
+        Rect { x0: 0, y0: 9, x1: 37, y1: 10 },
+    ] {
+        scene.film.crop = Some(crop);
+        let part = film_of(&scene, options()).resolve();
+        for y in crop.y0..crop.y1 {
+            for x in crop.x0..crop.x1 {
+                let (i, j) = ((y * 37 + x) as usize, ((y - crop.y0) * crop.width() + x - crop.x0) as usize);
+                assert_eq!(whole.rgb[i], part.rgb[j], "{x} {y}");
+                assert_eq!(
+                    (whole.depth[i], whole.normal[i], whole.albedo[i]),
+                    (part.depth[j], part.normal[j], part.albedo[j])
+                );
+                assert_eq!((whole.alpha[i], whole.variance[i]), (part.alpha[j], part.variance[j]));
+            }
         }
     }
 }
 
 #[test]
-fn both_ways_to_read_give_the_same_sums() {
-    let scene = scene();
-    let [texel, storage] = [Backend::Texel, Backend::Storage]
-        .map(|backend| render(&scene, |options| Options { backend, ..options }, 0, 4));
-    assert!(texel == storage);
-}
-
-#[test]
-fn preparing_does_not_depend_on_threads() {
-    let scene = scene();
+fn prepared_bytes_do_not_depend_on_the_number_of_threads() {
+    let mut scene = everything();
+    // Enough triangles that the builder works in parallel
+    let mut random = Random(1);
+    let mut mesh = Mesh::default();
+    for i in 0..30_000_u32 {
+        let at = random.in_cube(5.0);
+        mesh.positions.extend([at, at + random.in_cube(0.1), at + random.in_cube(0.1)]);
+        mesh.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+    }
+    let m = scene.diffuse(0.5);
+    let mesh = scene.meshes.add("cloud", mesh);
+    scene.place(mesh, m, Affine3A::IDENTITY);
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| prepare::prepare(&scene).unwrap())
+        pool.install(|| prepare(&scene).unwrap())
     };
     let one = with(1);
+    assert!(one.triangles.len() > 30_000);
     assert!(one == with(2) && one == with(7));
 }
 
-/// A hundred thousand triangles in one place: a ray meets them all, more than the 65,535 rounds that Mesa before 25.0
-/// allows the loops of a subgroup. Rays are parked and go on, and see what they see of one triangle.
 #[test]
-fn rays_are_parked_where_loops_would_be_cut() {
-    let picture = |count| {
-        let mut scene = Scene::default();
-        (scene.film.width, scene.film.height) = (8, 8);
-        scene.render.max_depth = 1;
-        scene.camera.position = Vec3::new(0.0, 0.0, 4.0);
-        let material = diffuse(&mut scene, 0.5);
-        let mesh = scene.meshes.add("stack", triangles(count));
-        let world_from_object = Affine3A::IDENTITY;
-        scene.instances.push(Instance { name: "stack".into(), mesh, material, world_from_object });
-        // A floor behind the stack, so that shadow rays pass through it too
-        let wall = ShapeKind::Quad {
-            origin: Vec3::new(-3.0, -3.0, -0.5),
-            edge_u: Vec3::X * 6.0,
-            edge_v: Vec3::Y * 6.0,
-        };
-        scene.shapes = vec![shape(wall, material)];
-        scene.lights = vec![dapple::scene::Light::Point {
-            position: Vec3::new(2.0, 0.4, 2.0),
-            intensity: Vec3::splat(20.0),
-        }];
-        render(&scene, |options| options, 0, 1).resolve()
+fn both_ways_of_fetching_give_the_same_sums() {
+    // The kernels differ only in the instruction that loads a word
+    let scene = everything();
+    let with = |backend| film_of(&scene, Options { backend, ..options() });
+    assert!(with(Backend::Texel) == with(Backend::Storage));
+}
+
+/// For the next test, which runs this one alone in a process of its own: prints a hash of all sums.
+#[test]
+#[ignore = "a part of the test below"]
+fn print_a_hash_of_the_sums() {
+    let mut hasher = DefaultHasher::new();
+    format!("{:?}", film_of(&everything(), options())).hash(&mut hasher);
+    println!("sums {:016x}", hasher.finish());
+}
+
+#[test]
+fn sums_do_not_depend_on_the_threads_of_the_driver() {
+    let with = |threads: &str| {
+        let run = std::process::Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", "print_a_hash_of_the_sums", "--ignored", "--nocapture"])
+            .env("LP_NUM_THREADS", threads)
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&run.stdout).into_owned();
+        let at = text.find("sums ").unwrap_or_else(|| panic!("{text}"));
+        text[at..at + 21].to_owned()
     };
-    let (many, one) = (picture(100_000), picture(1));
-    assert!(one.rgb.iter().any(|c| c[0] > 0.1) && one.rgb.iter().any(|c| c[0] == 0.0), "light and shadow");
-    assert_eq!(many.rgb, one.rgb);
-    assert_eq!(many.depth, one.depth);
+    let one = with("1");
+    assert_eq!(one, with("2"));
+    assert_eq!(one, with("7"));
 }

@@ -76,8 +76,12 @@ float turns(vec2 p)
     return u < 0.0 ? u + 1.0 : u;
 }
 
-// v of a direction: its height over its distance from the axis, as latitude. By atan, since asin of Mesa is off by 2e-4.
-float latitude_v(float height, float from_axis) { return 0.5 + atan(height, from_axis) * INV_PI; }
+// v of a direction, in [0, 1): its height over its distance from the axis, as latitude. By atan, since asin of Mesa is
+// off by 2e-4; below 1 at the pole, which would be the other pole of a picture that is repeated.
+float latitude_v(float height, float from_axis)
+{
+    return min(0.5 + atan(height, from_axis) * INV_PI, ONE_MINUS_EPSILON);
+}
 
 // uv of a point on the unit sphere: longitude about +z from +x, and latitude. The length of p may be off by rounding.
 vec2 sphere_uv(vec3 p) { return vec2(turns(p.xy), latitude_v(p.z, length(p.xy))); }

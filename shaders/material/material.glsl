@@ -52,6 +52,8 @@ Bsdf material_bsdf(Material m, TextureContext context)
     b.alpha.x = clamp(textured_number(m.alpha_u, m.alpha_u_texture, context), 0.0, 1.0);
     b.alpha.y = clamp(textured_number(m.alpha_v, m.alpha_v_texture, context), 0.0, 1.0);
 #endif
+    // Glass that bends nothing has no half vectors, whatever its roughness.
+    if (m.kind == MATERIAL_DIELECTRIC && abs(m.ior - 1.0) < 1e-4) b.alpha = vec2(0.0);
     // A lobe that is smooth in one direction only has no density: keep it just rough.
     if (!bsdf_is_smooth(b)) b.alpha = max(b.alpha, 1e-4);
 #ifdef HAS_PHONG

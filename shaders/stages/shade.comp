@@ -110,14 +110,16 @@ bool shade(uint slot, inout Path path, uvec4 hit, uint next)
     Surface surface = surface_at(uintBitsToFloat(hit.x), hit.y, hit.z, ray.origin, ray.direction);
     bool front = dot(ray.direction, surface.geometric) < 0.0;
     if (!front && surface.material == NONE) return false;
+    Material material = material_fetch(surface.material);
 #ifdef HAS_MEDIUM
-    // Beer's law along the way inside glass
-    if (path.medium != NONE) {
-        vec3 absorption = uintBitsToFloat(fetch_materials(path.medium * MATERIAL_WORDS + 2u).xyz);
+    // Beer's law along the way inside glass. A camera inside it is known by the boundary that is met from behind.
+    bool from_inside = !front && material.kind == MATERIAL_DIELECTRIC && material.mode == 0u;
+    uint medium = path.medium == NONE && from_inside ? surface.material : path.medium;
+    if (medium != NONE) {
+        vec3 absorption = uintBitsToFloat(fetch_materials(medium * MATERIAL_WORDS + 2u).xyz);
         path.throughput *= exp(-absorption * distance(ray.origin, surface.position));
     }
 #endif
-    Material material = material_fetch(surface.material);
     vec3 facing_normal = front ? surface.normal : -surface.normal;
     TextureContext context =
         TextureContext(surface.position, surface.object_position, surface.uv, facing_normal, 0.0, 0.0);

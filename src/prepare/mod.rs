@@ -180,7 +180,7 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
 }
 
 /// Units of the fixed-point sums: 2³⁰ steps up to the brightest thing, and a sample may be 2⁸ times as bright; 2²⁴ steps
-/// across the scene.
+/// to the far end of the scene.
 fn choose_units(scene: &Scene, textures: &textures::References, out: &mut Prepared) {
     let of = |value: &Value<Vec3>| match value {
         Value::Constant(color) => color.max_element(),
@@ -198,19 +198,25 @@ fn choose_units(scene: &Scene, textures: &textures::References, out: &mut Prepar
     let lights = out.lights.iter().map(|light| punctual_radiance(light, scene.camera.position, size));
     let brightest = lights.chain(surfaces).fold(environment.max(1.0), f32::max);
     out.radiance_exponent = (brightest.log2().ceil().min(100.0) as i32 - 30).clamp(-60, 60);
-    let far = out.bounds.diagonal().max(1e-6);
+    let size = out.bounds.diagonal();
+    let away = if size > 0.0 {
+        scene.camera.position.distance(0.5 * (out.bounds.min + out.bounds.max))
+    } else {
+        0.0
+    };
+    let far = (away + size).clamp(1e-6, f32::MAX);
     out.depth_exponent = (far.log2().ceil() as i32 - 24).clamp(-60, 60);
 }
 
 /// What a light without extent brings to a sample near it. Near is a quarter of the distance at which the camera is
-/// likely to look: as far from the light as the camera is, but no farther than an eighth of the scene. A sample stands for all
+/// likely to look: as far from the light as the camera is, but between 1/64 and 1/8 of the scene. A sample stands for all
 /// lights, so a light that is rarely chosen counts for more. 0 for surfaces, whose samples are weighed against the BSDF
 /// and stay near their radiance.
 fn punctual_radiance(light: &Light, camera: Vec3, size: f32) -> f32 {
     let all = Vec3::from(light.radiance).max_element() / light.chance.max(1e-9);
     match light.kind {
         LIGHT_POINT | LIGHT_SPOT => {
-            let distance = 0.25 * camera.distance(light.position.into()).clamp(size / 512.0, size / 8.0);
+            let distance = 0.25 * camera.distance(light.position.into()).clamp(size / 64.0, size / 8.0);
             all / (distance * distance)
         }
         LIGHT_DISTANT => all,

@@ -6,5 +6,6 @@ pub mod compare;
 pub mod probe;
 pub mod random;
 pub mod references;
+pub mod render;
 pub mod student;
 pub mod twins;
