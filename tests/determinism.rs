@@ -1,5 +1,13 @@
 //! The same scene, seed and device give the same sums, however the work is cut.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::needless_range_loop,
+    reason = "helpers of tests may panic: that is how they fail"
+)]
+
 mod common;
 
 use common::render::*;

@@ -1,5 +1,13 @@
 //! Tiny scenes built in code, rendered on one device a test program, and compared with what must come out.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::needless_range_loop,
+    reason = "helpers of tests may panic: that is how they fail"
+)]
+
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use dapple::film::{Film, Picture};

@@ -339,10 +339,7 @@ fn random_triangles_spheres_and_disks_against_brute_force() {
                 p.albedo[i][0]
             );
             let found = DVec3::from(p.normal[i].map(f64::from));
-            assert!(
-                (found - n).length() < 1e-4 / n.dot(d).abs().max(1e-2).min(1.0),
-                "pixel {i}: {found} {n}"
-            );
+            assert!((found - n).length() < 1e-4 / n.dot(d).abs().clamp(1e-2, 1.0), "pixel {i}: {found} {n}");
         }
         assert!(hits > 500 && skipped < 60, "seed {seed}: {hits} hits, {skipped} close calls");
     }

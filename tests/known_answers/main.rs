@@ -1,5 +1,13 @@
 //! Scenes whose pictures are known in closed form.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::needless_range_loop,
+    reason = "helpers of tests may panic: that is how they fail"
+)]
+
 #[path = "../common/mod.rs"]
 mod common;
 
