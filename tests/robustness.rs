@@ -1,4 +1,10 @@
 //! Scenes at the edge of what makes sense: a correct picture or a clear error, never a panic, a hang or a NaN.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::expect_used,
+    reason = "a test stops at what it cannot do"
+)]
 
 #![allow(
     clippy::unwrap_used,

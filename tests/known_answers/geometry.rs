@@ -477,6 +477,35 @@ fn a_hundred_thousand_coincident_triangles_look_like_one() {
 }
 
 #[test]
+fn a_shadow_ray_that_runs_out_of_steps_goes_on() {
+    // Straight up from the floor: through the box of a pile of triangles but past them, which takes more steps than a kernel
+    // has, and only then into what hides the light
+    let with = |copies: usize, hidden: bool| {
+        let mut s = scene(4, 4, 1);
+        s.camera = look(Vec3::new(3.0, 0.2, -0.4), Vec3::new(0.4, 0.0, -0.4), 1.0);
+        s.render.max_depth = 1;
+        let m = s.diffuse(0.5);
+        s.quad(Vec3::new(-4.0, 0.0, 4.0), Vec3::X * 8.0, Vec3::NEG_Z * 8.0, m);
+        let mesh = Mesh {
+            positions: vec![Vec3::new(-1.0, 0.3, -1.0), Vec3::new(1.0, 0.3, 1.0), Vec3::new(-1.0, 0.7, 1.0)],
+            triangles: vec![[0, 1, 2]; copies],
+            ..Mesh::default()
+        };
+        let mesh = s.meshes.add("pile", mesh);
+        s.place(mesh, m, Affine3A::IDENTITY);
+        if hidden {
+            s.quad(Vec3::new(-4.0, 3.0, 4.0), Vec3::X * 8.0, Vec3::NEG_Z * 8.0, m);
+        }
+        s.lights.push(point(Vec3::Y * 5.0, 10.0));
+        render(&s)
+    };
+    assert!(with(100_000, true).rgb.iter().all(|c| *c == [0.0; 3]), "light where there is shadow");
+    let lit = with(100_000, false);
+    assert!(lit.rgb.iter().all(|c| c[0] > 0.01));
+    expect_same(mean(&lit), mean(&with(1, false)), 1e-6);
+}
+
+#[test]
 fn emission_keeps_its_side_under_a_mirror() {
     for twice in [false, true] {
         for mirrored in [false, true] {

@@ -1,4 +1,10 @@
 //! Scenes whose pictures are known in closed form.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::expect_used,
+    reason = "a test stops at what it cannot do"
+)]
 
 #![allow(
     clippy::unwrap_used,

@@ -195,8 +195,8 @@ fn v_grows_upward_and_u_to_the_right() {
     let (p, _) = show(2, Vec2::ZERO, Vec2::ONE, image, |_| {});
     // The picture upright, as an image viewer shows it
     let expected = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
-    for i in 0..4 {
-        expect_rgb(p.rgb[i], [expected[i][0], expected[i][1], expected[i][2], 0.0], 1e-6, "corner");
+    for (found, [r, g, b]) in p.rgb.iter().zip(expected) {
+        expect_rgb(*found, [r, g, b, 0.0], 1e-6, "corner");
     }
 }
 
