@@ -6,14 +6,6 @@
     reason = "a test stops at what it cannot do"
 )]
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::needless_range_loop,
-    reason = "helpers of tests may panic: that is how they fail"
-)]
-
 mod common;
 
 use common::render::*;
