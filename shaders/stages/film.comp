@@ -2,7 +2,6 @@
 #include "stages/wave.glsl"
 #include "base/fixed.glsl"
 
-const uint AOV_WORDS = 2u;
 const float AOV_SCALE = 1048576.0; // 2^20, src/layout AOV_EXPONENT
 
 // What the samples of a pixel add, before it goes into the film.

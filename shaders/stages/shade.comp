@@ -6,9 +6,6 @@
 #include "material/material.glsl"
 #include "light/light.glsl"
 
-const uint SHADOW_WORDS = 3u;
-const uint AOV_WORDS = 2u;
-
 // Indirect light of a sample may be limited (firefly_clamp); direct light is not.
 vec3 limited(vec3 radiance, uint depth)
 {

@@ -3,8 +3,6 @@
 #define ANY_HIT
 #include "geometry/traverse.glsl"
 
-const uint SHADOW_WORDS = 3u;
-
 void main()
 {
     uint turn = counters[COUNTER_TURN];

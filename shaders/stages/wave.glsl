@@ -70,6 +70,8 @@ void path_store(uint slot, Path p)
 struct WaveRay { vec3 origin; vec3 direction; };
 
 const uint RAY_WORDS = 2u;
+const uint SHADOW_WORDS = 3u; // of the shadow ray of a slot
+const uint AOV_WORDS = 2u;    // of albedo, depth and normal
 
 WaveRay ray_load(uint slot)
 {
