@@ -22,12 +22,12 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
 {
     Surface s;
     uint w = index * TRIANGLE_WORDS;
-    Triangle triangle = triangle_unpack(fetch_triangles(w), fetch_triangles(w + 1u), fetch_triangles(w + 2u));
+    Triangle triangle = triangle_unpack(fetch_tree(w), fetch_tree(w + 1u), fetch_tree(w + 2u), fetch_tree(w + 3u));
     vec3 o = to_world ? object_point(instance, origin) : origin;
     vec3 d = to_world ? object_vector(instance, direction) : direction;
     float t;
     vec2 bary;
-    triangle_hit(triangle.a, triangle.b, triangle.c, o, d, FAR, t, bary);
+    triangle_hit(triangle.a, triangle.b, triangle.c, triangle_ray(o, d), FAR, t, bary);
     vec3 ab = triangle.b - triangle.a;
     vec3 ac = triangle.c - triangle.a;
     vec3 p = triangle.a + bary.x * ab + bary.y * ac;
@@ -39,22 +39,17 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec2 uv1 = turned ? vec2(1.0) : vec2(1.0, 0.0);
     vec2 uv2 = turned ? vec2(1.0, 0.0) : vec2(1.0);
     vec3 normal = geometric;
-    uint primitive = 0u;
-    if (triangle.face != NONE) {
-        Face face = face_unpack(fetch_faces(triangle.face));
-        primitive = face.primitive;
-        if (face.vertices.x != NONE) {
-            Vertex a = vertex_fetch(face.vertices.x);
-            Vertex b = vertex_fetch(face.vertices.y);
-            Vertex c = vertex_fetch(face.vertices.z);
-            if (instance.default_uv == 0u) {
-                uv0 = vec2(a.u, a.v);
-                uv1 = vec2(b.u, b.v);
-                uv2 = vec2(c.u, c.v);
-            }
-            vec3 smoothed = a.normal + bary.x * (b.normal - a.normal) + bary.y * (c.normal - a.normal);
-            if (dot(smoothed, smoothed) > 0.0) normal = smoothed;
+    if (triangle.vertices.x != NONE) {
+        Vertex a = vertex_fetch(triangle.vertices.x);
+        Vertex b = vertex_fetch(triangle.vertices.y);
+        Vertex c = vertex_fetch(triangle.vertices.z);
+        if (instance.default_uv == 0u) {
+            uv0 = vec2(a.u, a.v);
+            uv1 = vec2(b.u, b.v);
+            uv2 = vec2(c.u, c.v);
         }
+        vec3 smoothed = a.normal + bary.x * (b.normal - a.normal) + bary.y * (c.normal - a.normal);
+        if (dot(smoothed, smoothed) > 0.0) normal = smoothed;
     }
     vec2 du = uv1 - uv0;
     vec2 dv = uv2 - uv0;
@@ -75,7 +70,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     s.normal = normalize_or(normal, s.geometric);
     if (dot(s.normal, s.geometric) < 0.0) s.normal = -s.normal;
     s.material = triangle.material != NONE ? triangle.material : instance.material;
-    s.light = instance.light == NONE ? NONE : instance.light + instance.light_stride * primitive;
+    s.light = instance.light == NONE ? NONE : instance.light + instance.light_stride * triangle.primitive;
     return s;
 }
 
@@ -103,7 +98,7 @@ Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 dire
 #ifdef HAS_INSTANCES
     uint owner = instance;
     if (triangle != NONE) {
-        uint baked = fetch_triangles(triangle * TRIANGLE_WORDS).w;
+        uint baked = fetch_tree(triangle * TRIANGLE_WORDS).w;
         if (baked != NONE) owner = baked;
     }
     Instance place = instance_fetch(owner);
@@ -112,7 +107,7 @@ Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 dire
 #endif
     return triangle_surface(triangle, place, place.in_world == 0u, origin, direction);
 #else
-    Instance place = instance_fetch(fetch_triangles(triangle * TRIANGLE_WORDS).w);
+    Instance place = instance_fetch(fetch_tree(triangle * TRIANGLE_WORDS).w);
     return triangle_surface(triangle, place, false, origin, direction);
 #endif
 }

@@ -1,8 +1,7 @@
 // Rays through the two levels of trees. Switches of the variant: HAS_INSTANCES (there is a tree over instances; else
-// the root is that of the triangles in world space), HAS_SPHERES, HAS_DISKS, ANY_HIT (stop at the first hit).
+// the root is that of the triangles in world space), HAS_SPHERES, HAS_DISKS, ANY_HIT (stop at the first hit), PARKING.
 //
-// A ray takes at most `frame.step_limit` steps at once, then it is parked and resumed by a later dispatch: Mesa before
-// 25.0 leaves loops after 65,535 rounds.
+// A ray takes at most `frame.step_limit` steps at once: Mesa before 25.0 leaves loops after 65,535 rounds.
 #include "shared/bindings.glsl"
 #include "geometry/instance.glsl"
 #include "geometry/quadric.glsl"
@@ -14,8 +13,8 @@ struct Hit { float t; uint triangle; uint instance; };
 const uint REFERENCE_DONE = 0xffffffffu;
 const uint REFERENCE_LEAVE_INSTANCE = 0xfffffffeu;
 
-// A ray in the space of the tree that it is in, made ready for box tests.
-struct TreeRay { vec3 origin; vec3 direction; vec3 inverse; bvec3 backward; };
+// A ray in the space of the tree that it is in, made ready for boxes and triangles.
+struct TreeRay { vec3 origin; vec3 inverse; bvec3 backward; TriangleRay triangles; };
 
 // 1 / direction without infinities, so that a box test never meets 0 · ∞.
 TreeRay tree_ray(vec3 origin, vec3 direction)
@@ -23,134 +22,138 @@ TreeRay tree_ray(vec3 origin, vec3 direction)
     const float tiny = 1e-25;
     vec3 d = vec3(abs(direction.x) < tiny ? tiny : direction.x, abs(direction.y) < tiny ? tiny : direction.y,
                   abs(direction.z) < tiny ? tiny : direction.z);
-    return TreeRay(origin, direction, 1.0 / d, lessThan(d, vec3(0.0)));
+    return TreeRay(origin, 1.0 / d, lessThan(d, vec3(0.0)), triangle_ray(origin, direction));
 }
+
+// Where a ray is: what is open, and what it met so far.
+struct Walk { uint current; uint depth; uint instance; Hit hit; };
+
+#ifdef PARKING
+#include "geometry/park.glsl"
+#endif
+
+// Without the care for NaN that makes min and max three times as long on lavapipe.
+float larger(float a, float b) { return a > b ? a : b; }
+float smaller(float a, float b) { return a < b ? a : b; }
 
 // Entry and exit distance of a box; the exit is widened by the rounding of the test (Ize 2013).
 vec2 box_range(vec3 low, vec3 high, TreeRay ray, float t_max)
 {
     vec3 near = (mix(low, high, ray.backward) - ray.origin) * ray.inverse;
     vec3 far = (mix(high, low, ray.backward) - ray.origin) * ray.inverse;
-    return vec2(max(max(near.x, near.y), max(near.z, 0.0)), min(min(far.x, far.y), min(far.z, t_max)) * 1.00000036);
+    return vec2(larger(larger(near.x, near.y), larger(near.z, 0.0)),
+                smaller(smaller(far.x, far.y), smaller(far.z, t_max)) * 1.00000036);
 }
 
-// The state of a ray that ran out of steps is kept in `parked`: current reference, depth of the stack, instance, hit,
-// then the stack.
-const uint PARKED_HEAD = 6u;
+bool is_in_tree(uint reference) { return (reference & (LEAF | LEAF_INSTANCE)) != (LEAF | LEAF_INSTANCE); }
 
-uint parked_at(uint place) { return place * (PARKED_HEAD + frame.parked_stack); }
-
-// Follows a ray, from `hit.t` = t_max, or from where it was parked at `place`. True when it is finished; else it is
-// parked there.
+// Follows a ray, from `hit.t` = t_max. True when it is finished. Else it ran out of steps: with PARKING it is parked at
+// `place` and goes on from there when `resumed`; without, `hit` is of no use.
 bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit hit)
 {
     uint stack[TRAVERSAL_STACK];
     stack[0] = REFERENCE_DONE;
-    uint depth = 1u;
-    uint current = frame.root;
-    uint instance = NONE;
+    Walk walk = Walk(frame.root, 1u, NONE, hit);
     uint limit = frame.step_limit;
-    if (resumed) {
-        uint at = parked_at(place);
-        current = parked[at];
-        depth = parked[at + 1u];
-        instance = parked[at + 2u];
-        hit = Hit(uintBitsToFloat(parked[at + 3u]), parked[at + 4u], parked[at + 5u]);
-        for (uint i = 0u; i < depth; ++i) stack[i] = parked[at + PARKED_HEAD + i];
-    }
     TreeRay ray = tree_ray(origin, direction);
+#ifdef PARKING
+    if (resumed) {
+        walk = parked_walk(place);
+        for (uint i = 0u; i < walk.depth; ++i) stack[i] = parked_entry(place, i);
+    }
 #ifdef HAS_INSTANCES
-    if (instance != NONE) {
-        Instance entered = instance_fetch(instance);
+    if (walk.instance != NONE) {
+        Instance entered = instance_fetch(walk.instance);
         if (entered.in_world == 0u) ray = tree_ray(object_point(entered, origin), object_vector(entered, direction));
     }
 #endif
+#endif
     uint steps = 0u;
-    while (current != REFERENCE_DONE && steps < limit) {
-        // Down to a leaf
-        while ((current & LEAF) == 0u && steps < limit) {
-            uint w = current * NODE_WORDS;
-            Node node = node_unpack(fetch_nodes(w), fetch_nodes(w + 1u), fetch_nodes(w + 2u), fetch_nodes(w + 3u));
-            vec2 range0 = box_range(node.min0, node.max0, ray, hit.t);
-            vec2 range1 = box_range(node.min1, node.max1, ray, hit.t);
+    while (walk.current != REFERENCE_DONE && steps < limit) {
+        // One step is a node or a triangle: the same words are read as both, since on lavapipe a branch that not all
+        // lanes take costs as much as both of its sides.
+        while (is_in_tree(walk.current) && steps < limit) {
+            bool leaf = (walk.current & LEAF) != 0u;
+            uint item = walk.current & LEAF_FIRST_MASK;
+            uvec4 w0 = fetch_tree(item * NODE_WORDS);
+            uvec4 w1 = fetch_tree(item * NODE_WORDS + 1u);
+            uvec4 w2 = fetch_tree(item * NODE_WORDS + 2u);
+            uvec4 w3 = fetch_tree(item * NODE_WORDS + 3u);
+            Node node = node_unpack(w0, w1, w2, w3);
+            Triangle triangle = triangle_unpack(w0, w1, w2, w3);
+            vec2 range0 = box_range(node.min0, node.max0, ray, walk.hit.t);
+            vec2 range1 = box_range(node.min1, node.max1, ray, walk.hit.t);
             bool enter0 = range0.x <= range0.y;
             bool enter1 = range1.x <= range1.y;
             bool swap = enter1 && (!enter0 || range1.x < range0.x);
-            current = swap ? node.child1 : node.child0;
-            if (enter0 && enter1) {
-                stack[depth] = swap ? node.child0 : node.child1;
-                depth += 1u;
-            }
-            if (!enter0 && !enter1) {
-                depth -= 1u;
-                current = stack[depth];
-            }
-            steps += 1u;
-        }
-        if ((current & LEAF) == 0u || current == REFERENCE_DONE) continue;
-        bool found = false;
-#ifdef HAS_INSTANCES
-        bool leaves = current == REFERENCE_LEAVE_INSTANCE;
-        bool enters = !leaves && (current & LEAF_INSTANCE) != 0u;
-        if (leaves) {
-            ray = tree_ray(origin, direction);
-            instance = NONE;
-        }
-        if (enters) {
-            uint index = current & LEAF_FIRST_MASK;
-            Instance entered = instance_fetch(index);
-            bool move = entered.in_world == 0u;
-            TreeRay local = tree_ray(move ? object_point(entered, origin) : origin,
-                                     move ? object_vector(entered, direction) : direction);
-            float t = 0.0;
-#ifdef HAS_SPHERES
-            if (entered.kind == INSTANCE_SPHERE) found = sphere_hit(local.origin, local.direction, hit.t, t);
-#endif
-#ifdef HAS_DISKS
-            if (entered.kind == INSTANCE_DISK) found = disk_hit(local.origin, local.direction, hit.t, t);
-#endif
-            if (found) hit = Hit(t, NONE, index);
-            // Into its tree, with a mark on the stack for the way back
-            if (entered.kind <= INSTANCE_SOUP) {
-                ray = local;
-                instance = index;
-                stack[depth] = REFERENCE_LEAVE_INSTANCE;
-                stack[depth + 1u] = entered.root;
-                depth += 2u;
-            }
-        }
-        bool triangles = !leaves && !enters;
-#else
-        const bool triangles = true;
-#endif
-        // The triangles of a leaf
-        uint first = current & LEAF_FIRST_MASK;
-        uint end = triangles ? first + ((current >> LEAF_COUNT_SHIFT) & 7u) + 1u : first;
-        for (uint i = first; i < end; ++i) {
-            uint w = i * TRIANGLE_WORDS;
-            Triangle triangle = triangle_unpack(fetch_triangles(w), fetch_triangles(w + 1u), fetch_triangles(w + 2u));
             float t;
             vec2 bary;
-            if (triangle_hit(triangle.a, triangle.b, triangle.c, ray.origin, ray.direction, hit.t, t, bary)) {
-                hit = Hit(t, i, instance);
-                found = true;
+            bool found = triangle_hit(triangle.a, triangle.b, triangle.c, ray.triangles, walk.hit.t, t, bary) && leaf;
+            walk.hit.t = found ? t : walk.hit.t;
+            walk.hit.triangle = found ? item : walk.hit.triangle;
+            walk.hit.instance = found ? walk.instance : walk.hit.instance;
+            // The next triangle of the leaf, the nearer child, or what is on top of the stack
+            bool last = (walk.current & LEAF_COUNT_MASK) == 0u;
+            bool pop = leaf ? last : !enter0 && !enter1;
+            bool push = !leaf && enter0 && enter1;
+            uint next = leaf ? walk.current + 1u - (1u << LEAF_COUNT_SHIFT) : swap ? node.child1 : node.child0;
+            stack[walk.depth] = swap ? node.child0 : node.child1;
+            uint top = stack[walk.depth - 1u];
+            walk.current = pop ? top : next;
+            walk.depth = push ? walk.depth + 1u : pop ? walk.depth - 1u : walk.depth;
+            steps += 1u;
+#ifdef ANY_HIT
+            if (found) walk.current = REFERENCE_DONE;
+#endif
+        }
+#ifdef HAS_INSTANCES
+        bool leaves = walk.current == REFERENCE_LEAVE_INSTANCE;
+        bool enters = !is_in_tree(walk.current) && walk.current < REFERENCE_LEAVE_INSTANCE;
+        bool pop = leaves || enters;
+        bool found = false;
+        if (leaves) {
+            ray = tree_ray(origin, direction);
+            walk.instance = NONE;
+        }
+        if (enters) {
+            uint index = walk.current & LEAF_FIRST_MASK;
+            Instance entered = instance_fetch(index);
+            bool move = entered.in_world == 0u;
+            vec3 o = move ? object_point(entered, origin) : origin;
+            vec3 d = move ? object_vector(entered, direction) : direction;
+            float t = 0.0;
+#ifdef HAS_SPHERES
+            if (entered.kind == INSTANCE_SPHERE) found = sphere_hit(o, d, walk.hit.t, t);
+#endif
+#ifdef HAS_DISKS
+            if (entered.kind == INSTANCE_DISK) found = disk_hit(o, d, walk.hit.t, t);
+#endif
+            if (found) walk.hit = Hit(t, NONE, index);
+            // Into its tree, with a mark on the stack for the way back
+            if (entered.kind <= INSTANCE_SOUP) {
+                ray = tree_ray(o, d);
+                walk.instance = index;
+                stack[walk.depth] = REFERENCE_LEAVE_INSTANCE;
+                walk.depth += 1u;
+                walk.current = entered.root;
+                pop = false;
             }
         }
-        steps += end - first + 1u;
-        depth -= 1u;
-        current = stack[depth];
+        if (pop) {
+            walk.depth -= 1u;
+            walk.current = stack[walk.depth];
+        }
 #ifdef ANY_HIT
-        if (found) current = REFERENCE_DONE;
+        if (found) walk.current = REFERENCE_DONE;
+#endif
+        steps += 1u;
 #endif
     }
-    if (current == REFERENCE_DONE) return true;
-    uint at = parked_at(place);
-    parked[at] = current;
-    parked[at + 1u] = depth;
-    parked[at + 2u] = instance;
-    parked[at + 3u] = floatBitsToUint(hit.t);
-    parked[at + 4u] = hit.triangle;
-    parked[at + 5u] = hit.instance;
-    for (uint i = 0u; i < depth; ++i) parked[at + PARKED_HEAD + i] = stack[i];
+    hit = walk.hit;
+    if (walk.current == REFERENCE_DONE) return true;
+#ifdef PARKING
+    park(place, walk);
+    for (uint i = 0u; i < walk.depth; ++i) park_entry(place, i, stack[i]);
+#endif
     return false;
 }

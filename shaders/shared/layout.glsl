@@ -1,41 +1,58 @@
 // Written by src/layout; do not edit. Records are whole numbers of uvec4 words.
 
-const uint NONE = 4294967295u; // no object
-const uint WORKGROUP = 64u; // local_size_x of every kernel
-const uint TILE = 8u; // side of a tile of pixels, one workgroup
-const uint STACK_ENTRIES = 96u; // most entries of the traversal stack; a variant has TRAVERSAL_STACK
-const uint FILM_PLANES = 9u; // words of the film a pixel
-const uint LEAF = 2147483648u; // bit of a child reference: a leaf; bits 27..30 hold its primitives less one, bits 0..27 the first
-const uint LEAF_INSTANCE = 1073741824u; // bit of a leaf reference: bits 0..27 are an instance
-const uint LEAF_COUNT_SHIFT = 27u; // 
-const uint LEAF_FIRST_MASK = 134217727u; // 
-const uint INSTANCE_MESH = 0u; // triangles in object space
-const uint INSTANCE_SOUP = 1u; // triangles in world space
-const uint INSTANCE_SPHERE = 2u; // unit sphere about the origin, pole +z, longitude 0 at +x
-const uint INSTANCE_DISK = 3u; // unit disk in z = 0, front +z
-const uint MATERIAL_UNLIT = 0u; // colour is radiance
-const uint MATERIAL_DIFFUSE = 1u; // Lambertian
-const uint MATERIAL_PHONG = 2u; // modified Phong
-const uint MATERIAL_CONDUCTOR = 3u; // mirror or GGX metal
-const uint MATERIAL_DIELECTRIC = 4u; // smooth or GGX glass
-const uint FRESNEL_INDEX = 0u; // conductor with eta and k
-const uint FRESNEL_EXACT = 1u; // conductor with eta 1 and the k of its reflectance
-const uint FRESNEL_SCHLICK = 2u; // Schlick's approximation
-const uint FRESNEL_NONE = 3u; // the same at every angle
-const uint LIGHT_POINT = 0u; // point light
-const uint LIGHT_SPOT = 1u; // spot light
-const uint LIGHT_DISTANT = 2u; // parallel light
-const uint LIGHT_SPHERE = 3u; // sphere
-const uint LIGHT_QUAD = 4u; // rectangle or parallelogram
-const uint LIGHT_DISK = 5u; // disk; edges are its radii
-const uint LIGHT_TRIANGLE = 6u; // triangle of a mesh
-const uint WRAP_REPEAT = 0u; // bits 0..2 and 2..4 of the flags of ImageTexture
-const uint WRAP_CLAMP = 1u; // 
-const uint WRAP_MIRROR = 2u; // 
-const uint WRAP_BLACK = 3u; // 
-const uint FLAG_NEAREST = 16u; // no filter
-const uint FLAG_INVERT = 32u; // 1 - value
-const uint CHANNEL_SHIFT = 8u; // bits 8..11: 0 = rgb, 1 = r, 2 = g, 3 = b, 4 = a
+const uint NONE = 4294967295u; // No object.
+const uint WORKGROUP = 64u; // Invocations of a workgroup: `local_size_x`, the only size in use.
+const uint TILE = 8u; // Side of a square tile of pixels: a workgroup takes one.
+const uint STACK_ENTRIES = 96u; // Most entries that the traversal stack of a kernel may have. `prepare` proves that every tree fits.
+const uint FILM_PLANES = 9u; // Words a pixel of the film.
+const uint RAY_WORDS = 2u; // Words of the ray of a slot.
+const uint HIT_WORDS = 1u; // Words of what the ray of a slot met.
+const uint PATH_WORDS = 3u; // Words of the path of a slot.
+const uint SHADOW_WORDS = 3u; // Words of the shadow ray of a slot.
+const uint AOV_WORDS = 2u; // Words of albedo, depth and normal of a slot.
+const uint PARKED_HEAD = 6u; // Numbers that a parked ray keeps beside its stack.
+const uint QUEUE_BINS = 8u; // Parts of a queue, one for each octant of directions.
+const uint COUNTER_TURN = 0u; // Counter: the half of the queues that is read, 0 or 1; the other half is filled.
+const uint COUNTER_WAITING_PATHS = 1u; // Counter: paths that wait.
+const uint COUNTER_WAITING_SHADOWS = 2u; // Counter: shadow rays that wait.
+const uint COUNTER_PATH_GROUPS = 4u; // Three counters: size of the dispatch over paths.
+const uint COUNTER_SHADOW_GROUPS = 8u; // Three counters: size of the dispatch over shadow rays.
+const uint COUNTER_PATHS = 16u; // Counters: lengths of the parts of the path queue, of both halves.
+const uint COUNTER_SHADOWS = 32u; // Counters: lengths of the parts of the shadow queue, of both halves.
+const uint COUNTERS = 48u; // Number of counters.
+const uint SCHEDULE_WORDS = 5u; // Words of what a kernel knows of a queue: where the workgroups of its parts begin, their lengths, half and groups.
+const uint LEAF = 2147483648u; // Bit of a reference: a leaf. Its other bits are the number of its primitives less one, and the first of them.
+const uint LEAF_INSTANCE = 1073741824u; // Bit of a leaf reference: it is an instance.
+const uint LEAF_COUNT_SHIFT = 27u; // Where the number of primitives begins in a leaf reference.
+const uint LEAF_COUNT_MASK = 939524096u; // Bits of a leaf reference: the number of its primitives less one.
+const uint LEAF_FIRST_MASK = 134217727u; // Bits of a reference: the item of the tree, or the instance.
+const uint INSTANCE_MESH = 0u; // Instance kind: triangles in object space.
+const uint INSTANCE_SOUP = 1u; // Instance kind: all triangles that are placed once, in world space.
+const uint INSTANCE_SPHERE = 2u; // Instance kind: unit sphere.
+const uint INSTANCE_DISK = 3u; // Instance kind: unit disk.
+const uint MATERIAL_UNLIT = 0u; // Material kind: colour is radiance.
+const uint MATERIAL_DIFFUSE = 1u; // Material kind: Lambertian.
+const uint MATERIAL_PHONG = 2u; // Material kind: modified Phong.
+const uint MATERIAL_CONDUCTOR = 3u; // Material kind: mirror or GGX metal.
+const uint MATERIAL_DIELECTRIC = 4u; // Material kind: smooth or GGX glass.
+const uint FRESNEL_INDEX = 0u; // Conductor rule: conductor with eta and k.
+const uint FRESNEL_EXACT = 1u; // Conductor rule: conductor with eta 1 and the k of its reflectance.
+const uint FRESNEL_SCHLICK = 2u; // Conductor rule: Schlick's approximation.
+const uint FRESNEL_NONE = 3u; // Conductor rule: the same at every angle.
+const uint LIGHT_POINT = 0u; // Light kind: point light.
+const uint LIGHT_SPOT = 1u; // Light kind: spot light.
+const uint LIGHT_DISTANT = 2u; // Light kind: parallel light.
+const uint LIGHT_SPHERE = 3u; // Light kind: sphere.
+const uint LIGHT_QUAD = 4u; // Light kind: rectangle or parallelogram.
+const uint LIGHT_DISK = 5u; // Light kind: disk; edges are its radii.
+const uint LIGHT_TRIANGLE = 6u; // Light kind: triangle of a mesh.
+const uint WRAP_REPEAT = 0u; // Wrap mode: the picture again. Bits 0..2 and 2..4 of the flags of an image texture.
+const uint WRAP_CLAMP = 1u; // Wrap mode: the texel at the edge.
+const uint WRAP_MIRROR = 2u; // Wrap mode: the picture and its mirror image.
+const uint WRAP_BLACK = 3u; // Wrap mode: zero.
+const uint FLAG_NEAREST = 16u; // Flag of an image texture.
+const uint FLAG_INVERT = 32u; // Flag of an image texture.
+const uint CHANNEL_SHIFT = 8u; // Position of the channel in the flags of an image texture.
 
 struct Frame {
     vec3 camera_right; // camera space x in world space
@@ -112,33 +129,24 @@ struct Triangle {
     vec3 a; // first vertex, in the space of its tree
     uint instance; // instance, when the tree is in world space; else unused
     vec3 b; // second vertex
-    uint face; // its Face, or NONE for a flat triangle without uv that does not shine
-    vec3 c; // third vertex
     uint material; // its material, or NONE for that of the instance
+    vec3 c; // third vertex
+    uint primitive; // number of the triangle within its mesh
+    uvec3 vertices; // three Vertex records, or NONE thrice for a flat triangle without uv
+    uint spare; // room
 };
-const uint TRIANGLE_WORDS = 3u;
-Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
+const uint TRIANGLE_WORDS = 4u;
+Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
 {
     Triangle r;
     r.a = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
     r.instance = w0.w;
     r.b = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
-    r.face = w1.w;
+    r.material = w1.w;
     r.c = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
-    r.material = w2.w;
-    return r;
-}
-
-struct Face {
-    uvec3 vertices; // three Vertex records, or NONE thrice
-    uint primitive; // number of the triangle within its mesh
-};
-const uint FACE_WORDS = 1u;
-Face face_unpack(uvec4 w0)
-{
-    Face r;
-    r.vertices = uvec3(w0.x, w0.y, w0.z);
-    r.primitive = w0.w;
+    r.primitive = w2.w;
+    r.vertices = uvec3(w3.x, w3.y, w3.z);
+    r.spare = w3.w;
     return r;
 }
 

@@ -21,20 +21,23 @@ vec2 film_position(SlotPlace place, SampleKey key)
 
 void main()
 {
-    uint group = interleaved_group(frame.slot_count / WORKGROUP);
-    uint slot = group * WORKGROUP + gl_LocalInvocationIndex;
+    uint slot = interleaved_group() * WORKGROUP + gl_LocalInvocationIndex;
     if (slot >= frame.slot_count) return;
-    // The wave starts with the first half of the path queue full; advance.comp takes its turn before the first round.
+    // The wave starts with the first part of a half of the path queue full; advance.comp takes its turn before the round.
     if (slot == 0u) {
         counters[COUNTER_TURN] = 1u;
-        counters[COUNTER_PATHS] = frame.slot_count;
-        counters[COUNTER_SHADOWS] = 0u;
+        for (uint b = 0u; b < QUEUE_BINS; ++b) {
+            counters[queue_counter(QUEUE_PATHS, 0u, b)] = b == 0u ? frame.slot_count : 0u;
+            counters[queue_counter(QUEUE_SHADOWS, 0u, b)] = 0u;
+        }
     }
     SlotPlace place = slot_place(slot);
-    SampleKey key = slot_key(place);
+    SampleKey key = sample_key(place.pixel, place.sample_index, frame.seed, frame.strata);
     CameraRay ray = thin_lens_sample(film_position(place, key) / vec2(frame.film_size), sample_2d(key, DIMENSION_LENS));
-    ray_store(slot, ray.origin, ray.direction);
-    path_store(slot, Path(vec3(1.0), 0.0, vec3(0.0), 0u, 0u, 0u, NONE, 1.0));
+    ray_store(slot, WaveRay(ray.origin, ray.direction));
+    Path path = Path(vec3(1.0), 0.0, vec3(0.0), 0u, 0u, 0u, NONE, 1.0, key);
+    path_store(slot, path);
+    path_store_medium(slot, path);
     // Tiles at the edge reach beyond the window: those slots are not queued, and the film leaves them out.
-    queue[path_queue(0u, slot)] = place.inside ? slot : NONE;
+    queue[queue_place(QUEUE_PATHS, 0u, 0u, slot)] = place.inside ? slot : NONE;
 }

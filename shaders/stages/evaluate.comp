@@ -8,7 +8,7 @@ const uint POINT_WORDS = 4u;
 
 void main()
 {
-    uint i = interleaved_group((frame.point_count + WORKGROUP - 1u) / WORKGROUP) * WORKGROUP + gl_LocalInvocationIndex;
+    uint i = interleaved_group() * WORKGROUP + gl_LocalInvocationIndex;
     if (i >= frame.point_count) return;
     uint reference = fetch_points(i * POINT_WORDS).x;
     vec4 position = uintBitsToFloat(fetch_points(i * POINT_WORDS + 1u));

@@ -18,8 +18,9 @@ struct PixelSums {
 
 void add_sample(inout PixelSums sums, uint slot)
 {
-    Path path = path_load(slot);
-    vec3 radiance = path.radiance * frame.radiance_scale;
+    uvec4 word = fetch_paths(slot * PATH_WORDS + 1u);
+    uint flags = word.w >> PATH_FLAGS_SHIFT;
+    vec3 radiance = uintBitsToFloat(word.xyz) * frame.radiance_scale;
     if (!is_finite(radiance.x + radiance.y + radiance.z)) {
         sums.left_out += 1u;
         return;
@@ -32,8 +33,8 @@ void add_sample(inout PixelSums sums, uint slot)
         sums.squares[c] = fixed_wide_add(sums.squares[c], fixed_wide_from_float(whole[c] * whole[c]));
     }
     sums.samples += 1u;
-    sums.covered += path.flags & PATH_COVERED;
-    if ((path.flags & PATH_HAS_AOV) == 0u) return;
+    sums.covered += flags & PATH_COVERED;
+    if ((flags & PATH_HAS_AOV) == 0u) return;
     vec4 albedo_depth = uintBitsToFloat(fetch_aovs(slot * AOV_WORDS));
     vec3 normal = uintBitsToFloat(fetch_aovs(slot * AOV_WORDS + 1u).xyz);
     vec3 albedo = clamp(albedo_depth.xyz, 0.0, 65536.0);
@@ -88,9 +89,8 @@ void store_pixel(uint pixel, PixelSums sums)
 void main()
 {
     // A wave with parked rays is not finished: the host sends it round again.
-    uint turn = counters[COUNTER_TURN];
-    if (counters[COUNTER_PATHS + turn] + counters[COUNTER_SHADOWS + turn] != 0u) return;
-    uint tile = interleaved_group(frame.tile_count);
+    if (counters[COUNTER_WAITING_PATHS] + counters[COUNTER_WAITING_SHADOWS] != 0u) return;
+    uint tile = interleaved_group();
     uint lane = gl_LocalInvocationIndex;
     if (tile >= frame.tile_count || !slot_place(tile * frame.sample_count * WORKGROUP + lane).inside) return;
     uint pixel = (frame.first_tile + tile - frame.film_first_tile) * WORKGROUP + lane;

@@ -29,10 +29,10 @@ void shade_miss(inout Path path, vec3 direction)
 }
 
 // Sends a shadow ray to a light and puts what it may bring into the shadow queue.
-void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, SampleKey key, bool last, uint slot, uint next)
+void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, bool last, uint slot, uint next)
 {
-    float pick = sample_1d(key, bounce_dimension(path.depth, DIMENSION_LIGHT_PICK));
-    LightSample light = light_sample(surface.position, pick, sample_2d(key, bounce_dimension(path.depth, DIMENSION_LIGHT)));
+    float pick = sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_LIGHT_PICK));
+    LightSample light = light_sample(surface.position, pick, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_LIGHT)));
     vec3 wi = basis_to_local(basis, light.wi);
     vec3 f = bsdf_eval(bsdf, wo, wi) * abs(wi.z);
     if (!(light.pdf > 0.0) || max_component(f) <= 0.0) return;
@@ -49,14 +49,14 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
     store_shadows(slot * SHADOW_WORDS, uvec4(floatBitsToUint(origin), floatBitsToUint(light.infinite ? FAR : 1.0)));
     store_shadows(slot * SHADOW_WORDS + 1u, uvec4(floatBitsToUint(direction), 0u));
     store_shadows(slot * SHADOW_WORDS + 2u, uvec4(floatBitsToUint(radiance), 0u));
-    shadow_append(next, slot);
+    queue_append(QUEUE_SHADOWS, next, direction, slot);
 }
 
 // Chooses the next direction; false when the path ends.
-bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, SampleKey key, uint slot)
+bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, inout WaveRay ray)
 {
-    float lobe = sample_1d(key, bounce_dimension(path.depth, DIMENSION_LOBE));
-    BsdfSample s = bsdf_sample(bsdf, wo, lobe, sample_2d(key, bounce_dimension(path.depth, DIMENSION_BSDF)));
+    float lobe = sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_LOBE));
+    BsdfSample s = bsdf_sample(bsdf, wo, lobe, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_BSDF)));
     vec3 wi = basis_to_world(basis, s.wi);
     float side = dot(wi, surface.geometric);
     if (max_component(s.weight) <= 0.0) return false;
@@ -76,11 +76,11 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
 #ifdef ROULETTE
     float survival = max_component(path.throughput) * path.eta_scale;
     if (path.depth > 2u && survival < 1.0) {
-        if (sample_1d(key, bounce_dimension(path.depth - 1u, DIMENSION_ROULETTE)) >= survival) return false;
+        if (sample_1d(path.key, bounce_dimension(path.depth - 1u, DIMENSION_ROULETTE)) >= survival) return false;
         path.throughput /= survival;
     }
 #endif
-    ray_store(slot, offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric), wi);
+    ray = WaveRay(offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric), wi);
     return true;
 }
 
@@ -96,9 +96,8 @@ void write_aov(uint slot, inout Path path, Surface surface, Bsdf bsdf)
 }
 
 // One event; true when the path goes on.
-bool shade(uint slot, inout Path path, uvec4 hit, uint next)
+bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
 {
-    WaveRay ray = ray_load(slot);
     if (hit.w == HIT_MISS) {
         shade_miss(path, ray.direction);
         return false;
@@ -133,30 +132,30 @@ bool shade(uint slot, inout Path path, uvec4 hit, uint next)
 
     Basis basis = basis_along(surface.normal, surface.dpdu);
     vec3 wo = basis_to_local(basis, -ray.direction);
-    SampleKey key = slot_key(slot_place(slot));
     bool last = !specular && path.diffuse_depth >= frame.diffuse_bounces;
 #if defined(HAS_LIGHTS) || defined(HAS_ENVIRONMENT)
-    if (!specular) sample_direct_light(path, surface, bsdf, basis, wo, key, last, slot, next);
+    if (!specular) sample_direct_light(path, surface, bsdf, basis, wo, last, slot, next);
 #endif
-    return !last && scatter(path, surface, bsdf, basis, wo, key, slot);
+    return !last && scatter(path, surface, bsdf, basis, wo, ray);
 }
 
 void main()
 {
-    uint turn = counters[COUNTER_TURN];
-    uint count = counters[COUNTER_PATHS + turn];
-    uint i = interleaved_group((count + WORKGROUP - 1u) / WORKGROUP) * WORKGROUP + gl_LocalInvocationIndex;
-    if (i >= count) return;
-    uint slot = queue[path_queue(turn, i)];
+    Taken taken = queue_take(QUEUE_PATHS);
+    uint slot = taken.slot;
     if (slot == NONE) return;
-    // A path waits while its own ray or its last shadow ray is parked.
+    // A path waits while its own ray or its last shadow ray is too long for one dispatch.
     uvec4 hit = fetch_hits(slot);
-    bool waits = hit.w == HIT_PARKED || fetch_shadows(slot * SHADOW_WORDS + 2u).w != 0u;
-    bool goes_on = waits;
-    if (!waits) {
-        Path path = path_load(slot);
-        goes_on = shade(slot, path, hit, 1u - turn);
+    WaveRay ray = ray_load(slot);
+    Path path = path_load(slot);
+    bool goes_on = hit.w >= HIT_LONG || (path.flags & PATH_WAITS) != 0u;
+    if (!goes_on) {
+        goes_on = shade(slot, path, ray, hit, taken.next_half);
         path_store(slot, path);
+#ifdef HAS_DIELECTRIC
+        path_store_medium(slot, path);
+#endif
+        if (goes_on) ray_store(slot, ray);
     }
-    if (goes_on) path_append(1u - turn, slot);
+    if (goes_on) queue_append(QUEUE_PATHS, taken.next_half, ray.direction, slot);
 }

@@ -1,31 +1,37 @@
 // Whether light reaches the paths in the shadow queue; what reaches them is added to their radiance.
+// PARKING: for rays that are too long for one dispatch.
 #include "stages/wave.glsl"
 #define ANY_HIT
 #include "geometry/traverse.glsl"
 
 void main()
 {
-    uint turn = counters[COUNTER_TURN];
-    uint count = counters[COUNTER_SHADOWS + turn];
-    uint i = interleaved_group((count + WORKGROUP - 1u) / WORKGROUP) * WORKGROUP + gl_LocalInvocationIndex;
-    if (i >= count) return;
-    uint slot = queue[shadow_queue(turn, i)];
+    Taken taken = queue_take(QUEUE_SHADOWS);
+    uint slot = taken.slot;
+    if (slot == NONE) return;
     uvec4 a = fetch_shadows(slot * SHADOW_WORDS);
     uvec4 b = fetch_shadows(slot * SHADOW_WORDS + 1u);
     uvec4 c = fetch_shadows(slot * SHADOW_WORDS + 2u);
-    bool resumed = c.w != 0u;
     Hit blocker = Hit(uintBitsToFloat(a.w), NONE, NONE);
-    bool finished = traverse(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), resumed, 2u * slot + 1u, blocker);
+#ifdef PARKING
+    bool finished = traverse(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), c.w == HIT_PARKED, 2u * slot + 1u, blocker);
+    uint unfinished = HIT_PARKED;
+#else
+    // A ray that is known to be long is not followed again: it hits nothing and stays in the queue.
+    if (c.w == HIT_LONG) blocker.t = 0.0;
+    bool finished = traverse(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), false, 0u, blocker) && c.w != HIT_LONG;
+    uint unfinished = HIT_LONG;
+#endif
+    uvec4 radiance = fetch_paths(slot * PATH_WORDS + 1u);
     if (finished) {
-        if (blocker.triangle == NONE && blocker.instance == NONE) {
-            uvec4 radiance = fetch_paths(slot * PATH_WORDS + 1u);
-            vec3 sum = uintBitsToFloat(radiance.xyz) + uintBitsToFloat(c.xyz);
-            store_paths(slot * PATH_WORDS + 1u, uvec4(floatBitsToUint(sum), radiance.w));
-        }
-        if (resumed) store_shadows(slot * SHADOW_WORDS + 2u, uvec4(c.xyz, 0u));
+        bool lit = blocker.triangle == NONE && blocker.instance == NONE;
+        vec3 sum = uintBitsToFloat(radiance.xyz) + (lit ? uintBitsToFloat(c.xyz) : vec3(0.0));
+        uint state = radiance.w & ~(PATH_WAITS << PATH_FLAGS_SHIFT);
+        if (lit || c.w != 0u) store_paths(slot * PATH_WORDS + 1u, uvec4(floatBitsToUint(sum), state));
         return;
     }
     // The rest waits in the other half; the path waits for it in shade.comp.
-    store_shadows(slot * SHADOW_WORDS + 2u, uvec4(c.xyz, 1u));
-    shadow_append(1u - turn, slot);
+    store_shadows(slot * SHADOW_WORDS + 2u, uvec4(c.xyz, unfinished));
+    store_paths(slot * PATH_WORDS + 1u, uvec4(radiance.xyz, radiance.w | (PATH_WAITS << PATH_FLAGS_SHIFT)));
+    queue_append(QUEUE_SHADOWS, taken.next_half, uintBitsToFloat(b.xyz), slot);
 }

@@ -33,8 +33,8 @@ pub enum Command<'a> {
         pipeline: &'a Arc<Pipeline>,
         /// What it sees.
         bindings: &'a Arc<Bindings>,
-        /// Workgroups.
-        groups: u32,
+        /// Workgroups in x and y.
+        groups: [u32; 2],
     },
     /// Runs a kernel over as many workgroups as three `u32` in a buffer say.
     DispatchIndirect {
@@ -149,7 +149,7 @@ unsafe fn record_one(device: &ash::Device, buffer: vk::CommandBuffer, command: &
             }
             Command::Dispatch { pipeline, bindings, groups } => {
                 bind(pipeline, bindings);
-                device.cmd_dispatch(buffer, *groups, 1, 1);
+                device.cmd_dispatch(buffer, groups[0], groups[1], 1);
             }
             Command::DispatchIndirect { pipeline, bindings, sizes, offset } => {
                 bind(pipeline, bindings);

@@ -50,10 +50,9 @@ const fn row(number: u32, name: &'static str, kind: BindingKind) -> Binding {
 /// All bindings of all kernels, in descriptor set 0. A kernel declares those that it uses.
 pub const BINDINGS: &[Binding] = &[
     row(0, "frame", BindingKind::Uniform),
-    row(1, "nodes", BindingKind::Read),
-    row(2, "triangles", BindingKind::Read),
+    row(1, "tree", BindingKind::Read),
+    row(2, "schedule", BindingKind::ReadWrite),
     row(3, "instances", BindingKind::Read),
-    row(4, "faces", BindingKind::Read),
     row(5, "vertices", BindingKind::Read),
     row(6, "materials", BindingKind::Read),
     row(7, "textures", BindingKind::Read),

@@ -1,6 +1,7 @@
 //! Writes `shaders/shared/layout.glsl`.
 
-use super::records::{CONSTANTS, RECORDS, RecordInfo};
+use super::constants::CONSTANTS;
+use super::records::{RECORDS, RecordInfo};
 use std::fmt::Write as _;
 
 /// The text of `shaders/shared/layout.glsl`: constants, then each record with its unpacking function.

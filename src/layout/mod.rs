@@ -5,23 +5,17 @@
 //! and unpacked with `uintBitsToFloat`, because a float format may flush small integers as denormals.
 
 mod bindings;
+mod constants;
 mod glsl;
 mod records;
 
 pub use bindings::{BINDINGS, Backend, Binding, BindingKind, bindings_glsl};
+pub use constants::*;
 pub use glsl::layout_glsl;
 pub use records::*;
 
-/// Invocations of a workgroup: `local_size_x`, the only size in use.
-pub const WORKGROUP: u32 = 64;
-/// Side of a square tile of pixels: a workgroup takes one.
-pub const TILE: u32 = 8;
 /// Bytes of the word that kernels read.
 pub const WORD_BYTES: u64 = 16;
-/// Most entries that the traversal stack of a kernel may have. `prepare` proves that every tree fits.
-pub const STACK_ENTRIES: u32 = 96;
-/// Words a pixel of the film: see [`crate::film`].
-pub const FILM_PLANES: u32 = 9;
 /// log₂ of the unit of the sums of albedo and normal.
 pub const AOV_EXPONENT: i32 = -20;
 

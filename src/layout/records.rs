@@ -1,6 +1,6 @@
 //! The records and constants that host and kernels share.
 
-use super::{FILM_PLANES, Field, Record, STACK_ENTRIES, TILE, WORKGROUP};
+use super::{Field, Record};
 
 /// What the writer of `layout.glsl` needs to know of a record.
 #[derive(Debug, Clone, Copy)]
@@ -190,7 +190,7 @@ records! {
         spare1: u32,
     }
 
-    /// A triangle in the order of the tree.
+    /// A triangle in the order of the tree. As many words as a [`Node`]: both are items of one buffer.
     struct Triangle {
         /// first vertex, in the space of its tree
         a: [f32; 3],
@@ -198,20 +198,16 @@ records! {
         instance: u32,
         /// second vertex
         b: [f32; 3],
-        /// its Face, or NONE for a flat triangle without uv that does not shine
-        face: u32,
-        /// third vertex
-        c: [f32; 3],
         /// its material, or NONE for that of the instance
         material: u32,
-    }
-
-    /// Shading data of a triangle.
-    struct Face {
-        /// three Vertex records, or NONE thrice
-        vertices: [u32; 3],
+        /// third vertex
+        c: [f32; 3],
         /// number of the triangle within its mesh
         primitive: u32,
+        /// three Vertex records, or NONE thrice for a flat triangle without uv
+        vertices: [u32; 3],
+        /// room
+        spare: u32,
     }
 
     /// Shading data of a vertex.
@@ -365,121 +361,4 @@ records! {
         /// room
         spare: u32,
     }
-}
-
-/// Constants of `layout.glsl`: name, value, meaning.
-pub const CONSTANTS: &[(&str, u32, &str)] = &[
-    ("NONE", NONE, "no object"),
-    ("WORKGROUP", WORKGROUP, "local_size_x of every kernel"),
-    ("TILE", TILE, "side of a tile of pixels, one workgroup"),
-    ("STACK_ENTRIES", STACK_ENTRIES, "most entries of the traversal stack; a variant has TRAVERSAL_STACK"),
-    ("FILM_PLANES", FILM_PLANES, "words of the film a pixel"),
-    (
-        "LEAF",
-        LEAF,
-        "bit of a child reference: a leaf; bits 27..30 hold its primitives less one, bits 0..27 the first",
-    ),
-    ("LEAF_INSTANCE", LEAF_INSTANCE, "bit of a leaf reference: bits 0..27 are an instance"),
-    ("LEAF_COUNT_SHIFT", LEAF_COUNT_SHIFT, ""),
-    ("LEAF_FIRST_MASK", LEAF_FIRST_MASK, ""),
-    ("INSTANCE_MESH", INSTANCE_MESH, "triangles in object space"),
-    ("INSTANCE_SOUP", INSTANCE_SOUP, "triangles in world space"),
-    ("INSTANCE_SPHERE", INSTANCE_SPHERE, "unit sphere about the origin, pole +z, longitude 0 at +x"),
-    ("INSTANCE_DISK", INSTANCE_DISK, "unit disk in z = 0, front +z"),
-    ("MATERIAL_UNLIT", MATERIAL_UNLIT, "colour is radiance"),
-    ("MATERIAL_DIFFUSE", MATERIAL_DIFFUSE, "Lambertian"),
-    ("MATERIAL_PHONG", MATERIAL_PHONG, "modified Phong"),
-    ("MATERIAL_CONDUCTOR", MATERIAL_CONDUCTOR, "mirror or GGX metal"),
-    ("MATERIAL_DIELECTRIC", MATERIAL_DIELECTRIC, "smooth or GGX glass"),
-    ("FRESNEL_INDEX", FRESNEL_INDEX, "conductor with eta and k"),
-    ("FRESNEL_EXACT", FRESNEL_EXACT, "conductor with eta 1 and the k of its reflectance"),
-    ("FRESNEL_SCHLICK", FRESNEL_SCHLICK, "Schlick's approximation"),
-    ("FRESNEL_NONE", FRESNEL_NONE, "the same at every angle"),
-    ("LIGHT_POINT", LIGHT_POINT, "point light"),
-    ("LIGHT_SPOT", LIGHT_SPOT, "spot light"),
-    ("LIGHT_DISTANT", LIGHT_DISTANT, "parallel light"),
-    ("LIGHT_SPHERE", LIGHT_SPHERE, "sphere"),
-    ("LIGHT_QUAD", LIGHT_QUAD, "rectangle or parallelogram"),
-    ("LIGHT_DISK", LIGHT_DISK, "disk; edges are its radii"),
-    ("LIGHT_TRIANGLE", LIGHT_TRIANGLE, "triangle of a mesh"),
-    ("WRAP_REPEAT", WRAP_REPEAT, "bits 0..2 and 2..4 of the flags of ImageTexture"),
-    ("WRAP_CLAMP", WRAP_CLAMP, ""),
-    ("WRAP_MIRROR", WRAP_MIRROR, ""),
-    ("WRAP_BLACK", WRAP_BLACK, ""),
-    ("FLAG_NEAREST", FLAG_NEAREST, "no filter"),
-    ("FLAG_INVERT", FLAG_INVERT, "1 - value"),
-    ("CHANNEL_SHIFT", CHANNEL_SHIFT, "bits 8..11: 0 = rgb, 1 = r, 2 = g, 3 = b, 4 = a"),
-];
-
-macro_rules! constants {
-    ($($(#[doc = $doc:literal])* $name:ident = $value:expr;)*) => {
-        $( $(#[doc = $doc])* pub const $name: u32 = $value; )*
-    };
-}
-
-constants! {
-    /// No object.
-    NONE = u32::MAX;
-    /// Bit of a child reference: it is a leaf.
-    LEAF = 1 << 31;
-    /// Bit of a leaf reference: it is an instance.
-    LEAF_INSTANCE = 1 << 30;
-    /// Position of the number of primitives, less one, in a leaf reference.
-    LEAF_COUNT_SHIFT = 27;
-    /// Bits of the first primitive, or of the instance, in a leaf reference.
-    LEAF_FIRST_MASK = (1 << 27) - 1;
-    /// Instance kind: triangles in object space.
-    INSTANCE_MESH = 0;
-    /// Instance kind: all triangles that are placed once, in world space.
-    INSTANCE_SOUP = 1;
-    /// Instance kind: unit sphere.
-    INSTANCE_SPHERE = 2;
-    /// Instance kind: unit disk.
-    INSTANCE_DISK = 3;
-    /// Material kind.
-    MATERIAL_UNLIT = 0;
-    /// Material kind.
-    MATERIAL_DIFFUSE = 1;
-    /// Material kind.
-    MATERIAL_PHONG = 2;
-    /// Material kind.
-    MATERIAL_CONDUCTOR = 3;
-    /// Material kind.
-    MATERIAL_DIELECTRIC = 4;
-    /// Conductor rule.
-    FRESNEL_INDEX = 0;
-    /// Conductor rule.
-    FRESNEL_EXACT = 1;
-    /// Conductor rule.
-    FRESNEL_SCHLICK = 2;
-    /// Conductor rule.
-    FRESNEL_NONE = 3;
-    /// Light kind.
-    LIGHT_POINT = 0;
-    /// Light kind.
-    LIGHT_SPOT = 1;
-    /// Light kind.
-    LIGHT_DISTANT = 2;
-    /// Light kind.
-    LIGHT_SPHERE = 3;
-    /// Light kind.
-    LIGHT_QUAD = 4;
-    /// Light kind.
-    LIGHT_DISK = 5;
-    /// Light kind.
-    LIGHT_TRIANGLE = 6;
-    /// Wrap mode.
-    WRAP_REPEAT = 0;
-    /// Wrap mode.
-    WRAP_CLAMP = 1;
-    /// Wrap mode.
-    WRAP_MIRROR = 2;
-    /// Wrap mode.
-    WRAP_BLACK = 3;
-    /// Flag of an image texture.
-    FLAG_NEAREST = 16;
-    /// Flag of an image texture.
-    FLAG_INVERT = 32;
-    /// Position of the channel in the flags of an image texture.
-    CHANNEL_SHIFT = 8;
 }

@@ -6,7 +6,7 @@
 use super::bvh::{self, Quality};
 use super::{Bounds, Prepared};
 use crate::layout::{
-    Face, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
+    INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
     LEAF_INSTANCE, NONE, Triangle, Vertex,
 };
 use crate::scene::{Mesh, Scene, Shape, ShapeKind};
@@ -34,7 +34,7 @@ pub(super) enum Source {
     Mesh(usize),
 }
 
-/// Fills nodes, triangles, faces, vertices, instances, root, bounds.
+/// Fills nodes, triangles, vertices, instances, root, bounds.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> {
     let mut placed = Vec::new();
     let mut uses = vec![0_u32; scene.meshes.len()];
@@ -51,7 +51,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         };
         let instance = out.push_instance(kind, world_from_object, shape.material.index() as u32);
         if let ShapeKind::Quad { .. } = shape.kind {
-            push_triangles(&quad_mesh(), false, &world_from_object, Some(instance), out, &mut soup);
+            push_triangles(&quad_mesh(), &world_from_object, Some(instance), out, &mut soup);
         }
         placed.push(Placed { instance, source: Source::Shape(i), world_from_object });
     }
@@ -59,18 +59,17 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
     for (i, instance) in scene.instances.iter().enumerate() {
         let (mesh, map) = (&scene.meshes[instance.mesh], instance.world_from_object);
         let once = uses[instance.mesh.index()] == 1;
-        let shines = mesh_shines(scene, instance.mesh);
         let kind = if once { INSTANCE_SOUP } else { INSTANCE_MESH };
         let index = out.push_instance(kind, map, instance.material.index() as u32);
         out.instances[index as usize].light_stride = 1;
         out.instances[index as usize].default_uv = u32::from(mesh.uvs.is_empty());
         if once {
-            push_triangles(mesh, shines, &map, Some(index), out, &mut soup);
+            push_triangles(mesh, &map, Some(index), out, &mut soup);
         } else {
             let tree = &mut trees[instance.mesh.index()];
             if tree.is_none() {
                 let mut own = Vec::new();
-                push_triangles(mesh, shines, &Affine3A::IDENTITY, None, out, &mut own);
+                push_triangles(mesh, &Affine3A::IDENTITY, None, out, &mut own);
                 let bounds = bounds_of(&own);
                 let (root, depth) = out.push_tree(own)?;
                 *tree = Some((root, depth, bounds));
@@ -80,6 +79,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         placed.push(Placed { instance: index, source: Source::Mesh(i), world_from_object: map });
     }
     build_top(scene, soup, &trees, out)?;
+    out.put_triangles_after_nodes();
     Ok(placed)
 }
 
@@ -134,7 +134,7 @@ fn build_top(
         return build_instance_tree(tops, soup_root, soup_bounds, deepest, out);
     };
     out.root = root;
-    out.stack_entries = deepest + 1;
+    out.stack_entries = stack_entries(deepest, None);
     Ok(())
 }
 
@@ -164,11 +164,16 @@ fn build_instance_tree(
         name(&mut node.child1);
     }
     tree.shift_nodes(out.nodes.len() as u32);
-    // Down one tree, the mark of its end, down the other, and the mark of the end of all.
-    out.stack_entries = tree.depth + deepest + 2;
+    out.stack_entries = stack_entries(tree.depth, Some(deepest));
     out.root = tree.root;
     out.nodes.append(&mut tree.nodes);
     check_stack(out.stack_entries)
+}
+
+/// What `geometry/traverse.glsl` keeps: the mark of the end, an entry for each inner node down the first tree, and for a
+/// second tree the mark of its end and its inner nodes. One more is written, but not kept, at every step.
+fn stack_entries(first_depth: u32, second_depth: Option<u32>) -> u32 {
+    1 + first_depth + second_depth.map_or(0, |depth| 1 + depth) + 1
 }
 
 fn check_stack(entries: u32) -> Result<()> {
@@ -209,12 +214,29 @@ impl Prepared {
         self.instances.len() as u32 - 1
     }
 
+    /// Nodes and triangles are items of one buffer, nodes first: leaves count from there.
+    fn put_triangles_after_nodes(&mut self) {
+        let nodes = self.nodes.len() as u32;
+        let shift = |reference: &mut u32| {
+            if *reference & LEAF != 0 && *reference & LEAF_INSTANCE == 0 {
+                *reference += nodes;
+            }
+        };
+        shift(&mut self.root);
+        for instance in &mut self.instances {
+            shift(&mut instance.root);
+        }
+        for node in &mut self.nodes {
+            shift(&mut node.child0);
+            shift(&mut node.child1);
+        }
+    }
+
     /// Builds the tree of some triangles and puts them in its order. Gives root and depth.
     fn push_tree(&mut self, triangles: Vec<Triangle>) -> Result<(u32, u32)> {
         let (nodes, first) = (self.nodes.len(), self.triangles.len());
-        if nodes + triangles.len() > LEAF_FIRST_MASK as usize
-            || first + triangles.len() > LEAF_FIRST_MASK as usize
-        {
+        // A tree has fewer nodes than triangles, and nodes and triangles are counted together
+        if nodes + first + 2 * triangles.len() > LEAF_FIRST_MASK as usize {
             return Err(Error::scene(format!("more than {LEAF_FIRST_MASK} triangles")).help("use instances"));
         }
         let start = std::time::Instant::now();
@@ -229,11 +251,10 @@ impl Prepared {
     }
 }
 
-/// The triangles of a mesh as records, with their faces and vertices. `instance` is set for what is put into world
+/// The triangles of a mesh as records, with their vertices. `instance` is set for what is put into world
 /// space; a map that mirrors turns the triangles round, so that they stay counter-clockwise from outside.
 fn push_triangles(
     mesh: &Mesh,
-    shines: bool,
     map: &Affine3A,
     instance: Option<u32>,
     out: &mut Prepared,
@@ -242,7 +263,6 @@ fn push_triangles(
     let mirrored = map.matrix3.determinant() < 0.0;
     let normal_map = normal_map(map);
     let has_vertices = !mesh.normals.is_empty() || !mesh.uvs.is_empty();
-    let needs_faces = has_vertices || shines;
     let first_vertex = out.vertices.len() as u32;
     if has_vertices {
         out.vertices.extend((0..mesh.positions.len()).map(|i| {
@@ -256,20 +276,16 @@ fn push_triangles(
     for (i, corners) in mesh.triangles.iter().enumerate() {
         let [a, b, c] = if mirrored { [corners[0], corners[2], corners[1]] } else { *corners };
         let position = |v: u32| map.transform_point3(mesh.positions[v as usize]).to_array();
-        let face = if needs_faces {
-            let vertices = if has_vertices { [a, b, c].map(|v| first_vertex + v) } else { [NONE; 3] };
-            out.faces.push(Face { vertices, primitive: i as u32 });
-            out.faces.len() as u32 - 1
-        } else {
-            NONE
-        };
+        let vertices = if has_vertices { [a, b, c].map(|v| first_vertex + v) } else { [NONE; 3] };
         triangles.push(Triangle {
             a: position(a),
             instance: instance.unwrap_or(NONE),
             b: position(b),
-            face,
-            c: position(c),
             material: materials.get(i).copied().unwrap_or(NONE),
+            c: position(c),
+            primitive: i as u32,
+            vertices,
+            spare: 0,
         });
     }
 }
@@ -280,15 +296,6 @@ fn normal_map(map: &Affine3A) -> Mat3A {
     let m: Mat3A = map.matrix3.inverse().transpose();
     let longest = m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
     if longest > 0.0 { m * (1.0 / longest) } else { m }
-}
-
-/// Whether a mesh is a light in any of its instances.
-fn mesh_shines(scene: &Scene, mesh: crate::scene::Handle<Mesh>) -> bool {
-    let shines = |material| scene.materials[material].emission.is_some();
-    let parts = scene.meshes[mesh].parts.iter().filter_map(|part| part.material);
-    let instances =
-        scene.instances.iter().filter(|instance| instance.mesh == mesh).map(|instance| instance.material);
-    parts.chain(instances).any(shines)
 }
 
 /// Material of each triangle; empty when no part has one of its own.

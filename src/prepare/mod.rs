@@ -17,7 +17,7 @@ pub use variant::{Stage, defines, stack_size};
 
 use crate::Result;
 use crate::layout::{
-    EnvironmentCell, Face, Instance, LIGHT_DISTANT, LIGHT_POINT, LIGHT_SPOT, Light, Material, Node, Triangle,
+    EnvironmentCell, Instance, LIGHT_DISTANT, LIGHT_POINT, LIGHT_SPOT, Light, Material, Node, Triangle,
     Vertex,
 };
 use crate::scene::{Scene, Surface, Value};
@@ -26,12 +26,10 @@ use glam::Vec3;
 /// Everything that the kernels need of a scene, as plain records in the order of the bindings.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Prepared {
-    /// Nodes of all trees.
+    /// Nodes of all trees. References to nodes and triangles count items of one array: all nodes, then all triangles.
     pub nodes: Vec<Node>,
     /// Triangles of all trees, each tree's in its own order.
     pub triangles: Vec<Triangle>,
-    /// Shading data of triangles.
-    pub faces: Vec<Face>,
     /// Shading data of vertices.
     pub vertices: Vec<Vertex>,
     /// Shapes and meshes in the world.
@@ -78,7 +76,6 @@ impl Prepared {
         let sizes = [
             size_of_val(self.nodes.as_slice()),
             size_of_val(self.triangles.as_slice()),
-            size_of_val(self.faces.as_slice()),
             size_of_val(self.vertices.as_slice()),
             size_of_val(self.instances.as_slice()),
             size_of_val(self.materials.as_slice()),

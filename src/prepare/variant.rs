@@ -18,6 +18,10 @@ pub enum Stage {
     Shade,
     /// Shadow rays.
     Shadow,
+    /// Nearest surfaces, for rays that are too long for one dispatch.
+    IntersectLong,
+    /// Shadow rays that are too long for one dispatch.
+    ShadowLong,
     /// Queues.
     Advance,
     /// Sums.
@@ -28,8 +32,22 @@ pub enum Stage {
 
 impl Stage {
     /// All stages.
-    pub const ALL: [Self; 7] =
-        [Self::Camera, Self::Intersect, Self::Shade, Self::Shadow, Self::Advance, Self::Film, Self::Evaluate];
+    pub const ALL: [Self; 9] = [
+        Self::Camera,
+        Self::Intersect,
+        Self::Shade,
+        Self::Shadow,
+        Self::IntersectLong,
+        Self::ShadowLong,
+        Self::Advance,
+        Self::Film,
+        Self::Evaluate,
+    ];
+
+    /// Whether rays are followed.
+    fn traverses(self) -> bool {
+        matches!(self, Self::Intersect | Self::Shadow | Self::IntersectLong | Self::ShadowLong)
+    }
 
     /// Its name: that of its file.
     pub fn name(self) -> &'static str {
@@ -38,6 +56,8 @@ impl Stage {
             Self::Intersect => "intersect",
             Self::Shade => "shade",
             Self::Shadow => "shadow",
+            Self::IntersectLong => "intersect (long rays)",
+            Self::ShadowLong => "shadow (long rays)",
             Self::Advance => "advance",
             Self::Film => "film",
             Self::Evaluate => "evaluate",
@@ -48,9 +68,9 @@ impl Stage {
     pub fn file(self) -> &'static str {
         match self {
             Self::Camera => "stages/camera.comp",
-            Self::Intersect => "stages/intersect.comp",
+            Self::Intersect | Self::IntersectLong => "stages/intersect.comp",
             Self::Shade => "stages/shade.comp",
-            Self::Shadow => "stages/shadow.comp",
+            Self::Shadow | Self::ShadowLong => "stages/shadow.comp",
             Self::Advance => "stages/advance.comp",
             Self::Film => "stages/film.comp",
             Self::Evaluate => "stages/evaluate.comp",
@@ -109,7 +129,8 @@ pub fn defines(
             _ = all.insert(name.to_owned(), "1".to_owned());
         }
     };
-    if matches!(stage, Stage::Intersect | Stage::Shadow | Stage::Shade) {
+    flag("PARKING", matches!(stage, Stage::IntersectLong | Stage::ShadowLong));
+    if stage.traverses() || stage == Stage::Shade {
         flag("HAS_INSTANCES", features.instances);
         flag("HAS_SPHERES", features.spheres);
         flag("HAS_DISKS", features.disks);
@@ -133,7 +154,7 @@ pub fn defines(
         flag("GEOMETRIC_VETO", scene.render.geometric_veto);
         all.insert("LIGHT_KINDS".to_owned(), features.light_kinds.to_string());
     }
-    if matches!(stage, Stage::Intersect | Stage::Shadow) {
+    if stage.traverses() {
         all.insert("TRAVERSAL_STACK".to_owned(), stack_size(prepared.stack_entries).to_string());
     }
     all

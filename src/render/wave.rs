@@ -5,28 +5,42 @@ use super::kernels::Kernels;
 use super::resident::Resident;
 use crate::Result;
 use crate::gpu::{Bindings, Buffer, Command, Gpu, Place, Ticket};
-use crate::layout::{Frame, WORKGROUP};
+use crate::layout::{
+    AOV_WORDS, COUNTER_PATH_GROUPS, COUNTER_SHADOW_GROUPS, COUNTER_WAITING_PATHS, COUNTER_WAITING_SHADOWS, COUNTERS,
+    Frame, HIT_WORDS, PARKED_HEAD, PATH_WORDS, QUEUE_BINS, RAY_WORDS, SCHEDULE_WORDS, SHADOW_WORDS, WORD_BYTES,
+    WORKGROUP,
+};
 use crate::prepare::Stage;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Bytes of a slot in each buffer of a wave; those of `stages/wave.glsl`.
-const RAY_BYTES: u64 = 32;
-const HIT_BYTES: u64 = 16;
-const PATH_BYTES: u64 = 48;
-const SHADOW_BYTES: u64 = 48;
-const AOV_BYTES: u64 = 32;
-/// Two halves of two queues.
-const QUEUE_BYTES: u64 = 16;
-/// Two traversals: of the path's ray and of its shadow ray.
-const PARKED_HEAD: u64 = 6;
-
-const COUNTER_BYTES: u64 = 64;
-const PATH_GROUPS_OFFSET: u64 = 4 * 8;
-const SHADOW_GROUPS_OFFSET: u64 = 4 * 12;
+/// Bytes of two queues, each of two halves of a part for every octant.
+const QUEUE_BYTES: u64 = 4 * 4 * QUEUE_BINS as u64;
 
 /// Rounds that are recorded at once. A path that is not done then goes round again.
 const MOST_ROUNDS: u32 = 16;
+
+/// Workgroups for a number of pieces of work, as `interleaved_group` in `stages/queue.glsl` takes them.
+fn interleaved(frame: &Frame, pieces: u32) -> [u32; 2] {
+    [pieces.div_ceil(frame.threads), frame.threads]
+}
+
+/// Bytes of the two traversals of a slot that may be parked: of its path's ray and of its shadow ray.
+fn parked_bytes(scene: &Frame) -> u64 {
+    2 * 4 * u64::from(PARKED_HEAD + scene.parked_stack)
+}
+
+/// The kernels that follow rays in a round.
+#[derive(Clone, Copy)]
+struct Rays {
+    intersect: Stage,
+    shadow: Stage,
+}
+
+/// For rays that end within one dispatch; others are put aside.
+const SHORT: Rays = Rays { intersect: Stage::Intersect, shadow: Stage::Shadow };
+/// For all rays: those that are too long for one dispatch are parked, at the cost of a quarter of the speed.
+const LONG: Rays = Rays { intersect: Stage::IntersectLong, shadow: Stage::ShadowLong };
 
 /// The state of one slice in flight.
 pub(super) struct Wave {
@@ -51,17 +65,18 @@ impl Wave {
     ) -> Result<Self> {
         let n = u64::from(slots);
         let make = |name: &str, bytes: u64| gpu.buffer(name, bytes, Place::Device);
-        let parked = 8 * (PARKED_HEAD + u64::from(scene.parked_stack));
+        let words = |name: &str, each: u32| make(name, n * u64::from(each) * WORD_BYTES);
         let frame = gpu.buffer("frame", size_of::<Frame>() as u64, Place::Upload)?;
-        let counters = make("counters", COUNTER_BYTES)?;
+        let counters = make("counters", 4 * u64::from(COUNTERS))?;
         let own = [
-            ("rays", make("rays", n * RAY_BYTES)?),
-            ("hits", make("hits", n * HIT_BYTES)?),
-            ("paths", make("paths", n * PATH_BYTES)?),
-            ("shadows", make("shadows", n * SHADOW_BYTES)?),
-            ("aovs", make("aovs", n * AOV_BYTES)?),
+            ("rays", words("rays", RAY_WORDS)?),
+            ("hits", words("hits", HIT_WORDS)?),
+            ("paths", words("paths", PATH_WORDS)?),
+            ("shadows", words("shadows", SHADOW_WORDS)?),
+            ("aovs", words("aovs", AOV_WORDS)?),
             ("queue", make("queue", n * QUEUE_BYTES)?),
-            ("parked", make("parked", n * parked)?),
+            ("parked", make("parked", n * parked_bytes(scene))?),
+            ("schedule", make("schedule", 2 * u64::from(SCHEDULE_WORDS) * WORD_BYTES)?),
         ];
         let mut all: Vec<(&str, &Arc<Buffer>)> = own.iter().map(|(name, buffer)| (*name, buffer)).collect();
         all.extend(resident.buffers());
@@ -70,15 +85,15 @@ impl Wave {
         // What waits is told by marks in these two: none at first.
         let fill = |i: usize| Command::Fill { buffer: &own[i].1, bytes: own[i].1.bytes(), value: 0 };
         gpu.run(&[fill(1), fill(3), Command::Barrier])?;
-        let seen = gpu.buffer("counters (host)", COUNTER_BYTES, Place::Readback)?;
+        let seen = gpu.buffer("counters (host)", 4 * u64::from(COUNTERS), Place::Readback)?;
         let rounds = scene.max_depth.saturating_add(2).min(MOST_ROUNDS);
         Ok(Self { frame, counters, seen, bindings, slots, rounds, ticket: None })
     }
 
     /// Bytes of a slot in all buffers of a wave.
     pub(super) fn slot_bytes(scene: &Frame) -> u64 {
-        let parked = 8 * (PARKED_HEAD + u64::from(scene.parked_stack));
-        RAY_BYTES + HIT_BYTES + PATH_BYTES + SHADOW_BYTES + AOV_BYTES + QUEUE_BYTES + parked
+        let words = RAY_WORDS + HIT_WORDS + PATH_WORDS + SHADOW_WORDS + AOV_WORDS;
+        u64::from(words) * WORD_BYTES + QUEUE_BYTES + parked_bytes(scene)
     }
 
     /// Starts a slice. The wave must be idle.
@@ -86,7 +101,7 @@ impl Wave {
         debug_assert!(self.ticket.is_none() && frame.slot_count <= self.slots);
         self.frame.write(bytemuck::bytes_of(frame));
         let commands: Vec<_> =
-            self.first(kernels, frame).into_iter().chain(self.rounds(kernels, frame)).collect();
+            self.first(kernels, frame).into_iter().chain(self.rounds(kernels, frame, SHORT)).collect();
         self.ticket = Some(gpu.submit(&commands)?);
         Ok(())
     }
@@ -102,7 +117,7 @@ impl Wave {
         self.frame.write(bytemuck::bytes_of(frame));
         let mut rays = (0, 0);
         let mut camera = true;
-        for command in self.first(kernels, frame).into_iter().chain(self.rounds(kernels, frame)) {
+        for command in self.first(kernels, frame).into_iter().chain(self.rounds(kernels, frame, SHORT)) {
             let Some(stage) = kernels.stage_of(&command) else {
                 gpu.run(&[command, Command::Barrier])?;
                 continue;
@@ -127,16 +142,15 @@ impl Wave {
 
     /// Paths and shadow rays that wait for the next round.
     fn waiting(&self, gpu: &Gpu) -> Result<(u32, u32)> {
-        let copy = Command::Copy { from: &self.counters, to: &self.seen, bytes: COUNTER_BYTES };
+        let copy = Command::Copy { from: &self.counters, to: &self.seen, bytes: 4 * u64::from(COUNTERS) };
         gpu.run(&[copy, Command::Barrier])?;
         self.seen_waiting()
     }
 
     /// The same, as the counters were when they were last copied.
     fn seen_waiting(&self) -> Result<(u32, u32)> {
-        self.seen.read(COUNTER_BYTES, |c| {
-            let turn = (c[0] & 1) as usize;
-            (c[1 + turn], c[3 + turn])
+        self.seen.read(4 * u64::from(COUNTERS), |c| {
+            (c[COUNTER_WAITING_PATHS as usize], c[COUNTER_WAITING_SHADOWS as usize])
         })
     }
 
@@ -154,50 +168,48 @@ impl Wave {
     fn again(&mut self, gpu: &Gpu, kernels: &Kernels, frame: &Frame) -> Result<()> {
         let (paths, shadows) = self.seen_waiting()?;
         if paths + shadows > 0 {
-            self.ticket = Some(gpu.submit(&self.rounds(kernels, frame))?);
+            self.ticket = Some(gpu.submit(&self.rounds(kernels, frame, LONG))?);
         }
         Ok(())
     }
 
     /// The first rays, and the queue of them.
     fn first<'a>(&'a self, kernels: &'a Kernels, frame: &Frame) -> Vec<Command<'a>> {
-        let groups = frame.threads * (frame.slot_count / WORKGROUP).div_ceil(frame.threads);
         vec![
             Command::Barrier,
-            self.one(kernels, Stage::Camera, groups),
+            self.one(kernels, Stage::Camera, interleaved(frame, frame.slot_count / WORKGROUP)),
             Command::Barrier,
-            self.one(kernels, Stage::Advance, 1),
+            self.one(kernels, Stage::Advance, [1, 1]),
         ]
     }
 
-    fn one<'a>(&'a self, kernels: &'a Kernels, stage: Stage, groups: u32) -> Command<'a> {
+    fn one<'a>(&'a self, kernels: &'a Kernels, stage: Stage, groups: [u32; 2]) -> Command<'a> {
         Command::Dispatch { pipeline: kernels.pipeline(stage), bindings: &self.bindings, groups }
     }
 
     /// Rounds of all paths through the kernels, then the film, then the counters for the host.
-    fn rounds<'a>(&'a self, kernels: &'a Kernels, frame: &Frame) -> Vec<Command<'a>> {
-        let film_groups = frame.threads * frame.tile_count.div_ceil(frame.threads);
-        let over = |stage, offset| Command::DispatchIndirect {
+    fn rounds<'a>(&'a self, kernels: &'a Kernels, frame: &Frame, rays: Rays) -> Vec<Command<'a>> {
+        let over = |stage, counter: u32| Command::DispatchIndirect {
             pipeline: kernels.pipeline(stage),
             bindings: &self.bindings,
             sizes: &self.counters,
-            offset,
+            offset: 4 * u64::from(counter),
         };
         let mut commands = vec![Command::Barrier];
         for _ in 0..self.rounds {
             commands.extend([
-                over(Stage::Intersect, PATH_GROUPS_OFFSET),
-                over(Stage::Shadow, SHADOW_GROUPS_OFFSET),
+                over(rays.intersect, COUNTER_PATH_GROUPS),
+                over(rays.shadow, COUNTER_SHADOW_GROUPS),
                 Command::Barrier,
-                over(Stage::Shade, PATH_GROUPS_OFFSET),
+                over(Stage::Shade, COUNTER_PATH_GROUPS),
                 Command::Barrier,
-                self.one(kernels, Stage::Advance, 1),
+                self.one(kernels, Stage::Advance, [1, 1]),
                 Command::Barrier,
             ]);
         }
         commands.extend([
-            self.one(kernels, Stage::Film, film_groups),
-            Command::Copy { from: &self.counters, to: &self.seen, bytes: COUNTER_BYTES },
+            self.one(kernels, Stage::Film, interleaved(frame, frame.tile_count)),
+            Command::Copy { from: &self.counters, to: &self.seen, bytes: 4 * u64::from(COUNTERS) },
             Command::Barrier,
         ]);
         commands
