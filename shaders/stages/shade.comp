@@ -4,6 +4,7 @@
 #include "base/offset.glsl"
 #include "geometry/surface.glsl"
 #include "material/material.glsl"
+#include "material/medium.glsl"
 #include "light/light.glsl"
 
 // Indirect light of a sample may be limited (firefly_clamp); direct light is not.
@@ -40,6 +41,12 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
 #ifdef GEOMETRIC_VETO
     if (side * wi.z <= 0.0) return;
 #endif
+#ifdef HAS_MEDIUM
+    // A light from infinity is left as it is: no way out of the glass is free.
+    bool through = bsdf.kind == MATERIAL_DIELECTRIC && wo.z * wi.z < 0.0;
+    uint medium = through ? medium_beyond(bsdf, surface.material, side) : path.medium;
+    if (!light.infinite) light.radiance *= medium_transmittance(medium, distance(surface.position, light.point));
+#endif
     // The path ends here when `last`: then the BSDF will not look for the light.
     float weight = light.delta || last ? 1.0 : power_heuristic(light.pdf, bsdf_pdf(bsdf, wo, wi));
     vec3 radiance = limited(path.throughput * f * light.radiance * (weight / light.pdf), path.depth + 1u);
@@ -69,7 +76,7 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
 #ifdef HAS_DIELECTRIC
     if (s.through) {
         path.eta_scale *= s.eta * s.eta;
-        path.medium = bsdf.mode != 1u && side < 0.0 ? surface.material : NONE;
+        path.medium = medium_beyond(bsdf, surface.material, side);
     }
 #endif
     path.depth += 1u;
@@ -109,13 +116,10 @@ bool shade(uint slot, inout Path path, uvec4 hit, uint next)
     if (!front && surface.material == NONE) return false;
     Material material = material_fetch(surface.material);
 #ifdef HAS_MEDIUM
-    // Beer's law along the way inside glass. A camera inside it is known by the boundary that is met from behind.
+    // A camera inside glass is known by the boundary that is met from behind.
     bool from_inside = !front && material.kind == MATERIAL_DIELECTRIC && material.mode == 0u;
-    uint medium = path.medium == NONE && from_inside ? surface.material : path.medium;
-    if (medium != NONE) {
-        vec3 absorption = uintBitsToFloat(fetch_materials(medium * MATERIAL_WORDS + 2u).xyz);
-        path.throughput *= exp(-absorption * distance(ray.origin, surface.position));
-    }
+    if (path.medium == NONE && from_inside) path.medium = surface.material;
+    path.throughput *= medium_transmittance(path.medium, distance(ray.origin, surface.position));
 #endif
     vec3 facing_normal = front ? surface.normal : -surface.normal;
     TextureContext context =
