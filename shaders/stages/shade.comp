@@ -6,6 +6,7 @@
 #include "material/material.glsl"
 #include "material/medium.glsl"
 #include "light/light.glsl"
+#include "stages/aov.glsl"
 
 // Indirect light of a sample may be limited (firefly_clamp); direct light is not.
 vec3 limited(vec3 radiance, uint depth)
@@ -91,17 +92,6 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
     return true;
 }
 
-// Albedo, depth and normal of the first surface that is neither mirror nor clear glass.
-void write_aov(uint slot, inout Path path, Surface surface, Bsdf bsdf)
-{
-    vec3 albedo = bsdf.kind == MATERIAL_DIELECTRIC ? vec3(1.0) : bsdf.color;
-    if (bsdf.kind == MATERIAL_PHONG) albedo += bsdf.specular;
-    float depth = distance(frame.camera_position, surface.position);
-    store_aovs(slot * AOV_WORDS, uvec4(floatBitsToUint(albedo), floatBitsToUint(depth)));
-    store_aovs(slot * AOV_WORDS + 1u, uvec4(floatBitsToUint(surface.normal), 0u));
-    path.flags |= PATH_HAS_AOV;
-}
-
 // One event; true when the path goes on.
 bool shade(uint slot, inout Path path, uvec4 hit, uint next)
 {
@@ -125,14 +115,16 @@ bool shade(uint slot, inout Path path, uvec4 hit, uint next)
     TextureContext context =
         TextureContext(surface.position, surface.object_position, surface.uv, facing_normal, 0.0, 0.0);
     Bsdf bsdf = material_bsdf(material, context);
+    vec3 emitted = vec3(0.0);
     if (front || material.two_sided != 0u) {
+        emitted = material_emission(material, context);
         float pdf = 0.0;
         if (path.pdf > 0.0 && surface.light != NONE) pdf = light_pdf(surface.light, ray.origin, surface.position, surface.geometric);
-        add_emission(path, material_emission(material, context), pdf);
+        add_emission(path, emitted, pdf);
     }
     if (bsdf.kind == MATERIAL_UNLIT) path.radiance += limited(path.throughput * bsdf.color, path.depth);
     bool specular = bsdf_is_specular(bsdf);
-    if ((path.flags & PATH_HAS_AOV) == 0u && !specular) write_aov(slot, path, surface, bsdf);
+    if ((path.flags & PATH_HAS_AOV) == 0u && !specular) write_aov(slot, path, surface, bsdf, emitted, facing_normal);
     if (path.depth >= frame.max_depth || bsdf.kind == MATERIAL_UNLIT) return false;
 
     Basis basis = basis_along(surface.normal, surface.dpdu);
