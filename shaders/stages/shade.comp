@@ -1,5 +1,6 @@
 // One scattering event of every path in the queue: emission, light sampling, and the next direction.
-// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, ROULETTE, GEOMETRIC_VETO and those of the menus.
+// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, ROULETTE, GEOMETRIC_VETO,
+// TRANSPARENT_FILM and those of the menus.
 #include "stages/wave.glsl"
 #include "base/offset.glsl"
 #include "geometry/surface.glsl"
@@ -25,6 +26,9 @@ void add_emission(inout Path path, vec3 radiance, float light_sampling_pdf)
 
 void shade_miss(inout Path path, vec3 direction)
 {
+#ifdef TRANSPARENT_FILM
+    if ((path.flags & PATH_COVERED) == 0u) return;
+#endif
 #ifdef HAS_ENVIRONMENT
     add_emission(path, environment_radiance(direction), path.pdf > 0.0 ? environment_light_pdf(direction) : 0.0);
 #endif

@@ -8,7 +8,7 @@ use super::{Film, Frame};
 pub struct Picture {
     /// Size, window, units and seed of the film that it comes from.
     pub frame: Frame,
-    /// Radiance, linear red, green, blue; premultiplied where the background adds nothing.
+    /// Radiance, linear red, green, blue; of a transparent film without the sky behind the scene, so premultiplied.
     pub rgb: Vec<[f32; 3]>,
     /// Part of the samples whose camera ray hit something.
     pub alpha: Vec<f32>,

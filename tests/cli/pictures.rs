@@ -103,6 +103,74 @@ fn word_values(ran: &Ran, key: &str) -> Vec<f32> {
     row.split_whitespace().skip(1).map(|word| word.parse().unwrap()).collect()
 }
 
+/// An orange ball that needs no light in front of a bright sky: edges, and pixels of one kind each.
+const BALL: &str = r#"
+[film]
+size = [16, 12]
+transparent = true
+filter = "gaussian"
+
+[camera]
+position = [0, 0, 5]
+target = [0, 0, 0]
+
+[material.ball]
+kind = "unlit"
+color = [0.5, 0.25, 0.125]
+
+[[shape]]
+kind = "sphere"
+radius = 1
+material = "ball"
+
+[environment]
+color = 20
+"#;
+
+#[test]
+fn a_transparent_film_has_no_sky_in_it() {
+    let room = Room::new();
+    room.write("ball.toml", BALL);
+    for name in ["ball.exr", "ball.png"] {
+        room.run(&format!("render ball.toml -o {name} --spp 16")).code(0);
+    }
+    let (exr, png) = (Planes::read(&room.path("ball.exr")), image::open(room.path("ball.png")).unwrap());
+    let png = png.as_rgba8().unwrap();
+    let mut kinds = [0; 3];
+    for (i, pixel) in png.pixels().enumerate() {
+        let (alpha, rgb) = (exr.plane("A")[i], exr.three(["R", "G", "B"], i));
+        // Premultiplied in the EXR
+        for (c, color) in [0.5, 0.25, 0.125].into_iter().enumerate() {
+            assert!((rgb[c] - alpha * color).abs() < 1e-6, "pixel {i}: {rgb:?} at alpha {alpha}");
+        }
+        // Straight in the PNG: the same colour wherever there is any. 0.5 is 188, 0.25 is 137, 0.125 is 99
+        let [r, g, b, a] = pixel.0;
+        assert_eq!(f32::from(a), (alpha * 255.0).round(), "pixel {i}");
+        assert_eq!([r, g, b], if alpha > 0.0 { [188, 137, 99] } else { [0; 3] }, "pixel {i}");
+        kinds[if alpha == 0.0 {
+            0
+        } else if alpha < 1.0 {
+            1
+        } else {
+            2
+        }] += 1;
+    }
+    assert!(kinds.iter().all(|&n| n >= 10), "sky, edges, ball: {kinds:?}");
+
+    // What the sky lights and what a mirror shows of it stays
+    let mirror = BALL
+        .replace("kind = \"unlit\"\ncolor = [0.5, 0.25, 0.125]", "kind = \"conductor\"\nfresnel = \"none\"");
+    room.write("ball.toml", &mirror);
+    room.run("render ball.toml -o ball.exr --spp 4").code(0);
+    let exr = Planes::read(&room.path("ball.exr"));
+    for (rgb, alpha) in exr.plane("G").iter().zip(exr.plane("A")) {
+        assert!((rgb - alpha * 18.0).abs() < 1e-4, "{rgb} at alpha {alpha}");
+    }
+    // An opaque film shows it everywhere
+    room.run("render ball.toml -o ball.exr --spp 4 --set film.transparent=false").code(0);
+    assert_eq!(Planes::read(&room.path("ball.exr")).plane("G")[0], 20.0);
+}
+
 #[test]
 fn settings_change_the_scene() {
     let room = Room::new();
