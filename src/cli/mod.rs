@@ -56,7 +56,7 @@ pub fn run() -> ExitCode {
     match outcome.and_then(|()| Ok(console.finish()?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            let code = exit_code(failure.error.kind);
+            let code = exit_code(&failure.error);
             report::print(&failure, &mut console);
             code
         }
@@ -66,8 +66,12 @@ pub fn run() -> ExitCode {
 /// Exit code of wrong arguments, and of wrong scenes.
 const USAGE: u8 = 2;
 
-fn exit_code(kind: ErrorKind) -> ExitCode {
-    match kind {
+/// How the message about a `--device` begins that no device has: the argument is wrong, not the machine.
+const UNKNOWN_DEVICE: &str = "no device `";
+
+fn exit_code(error: &Error) -> ExitCode {
+    match error.kind {
+        ErrorKind::Device if error.message.starts_with(UNKNOWN_DEVICE) => ExitCode::from(USAGE),
         ErrorKind::Scene => ExitCode::from(USAGE),
         ErrorKind::Device | ErrorKind::Output => ExitCode::from(1),
     }
