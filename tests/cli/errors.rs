@@ -101,6 +101,10 @@ fn errors_in_shaders_name_the_file_of_the_user() {
     let room = Room::new();
     room.run("render scene.toml --shaders nowhere").code(2).err_has("cannot open the folder of shaders");
     std::fs::create_dir_all(room.path("mine/camera")).unwrap();
+    room.run("render scene.toml --shaders mine")
+        .code(2)
+        .err_has("error: mine: no file in this folder has the name of a shader of dapple")
+        .err_has("mine/base/fixed.glsl");
     room.write("mine/camera/thin_lens.glsl", "// first line\nfloat f() { return lens_u10; }\n");
     room.run("render scene.toml --shaders mine")
         .code(1)
