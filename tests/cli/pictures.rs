@@ -232,3 +232,31 @@ fn samples_that_are_not_finite_are_counted() {
     assert_eq!(ran.event("done")["left_out"], 1536);
     assert!(ran.event("done")["stopped_by"].is_null());
 }
+
+#[test]
+fn the_first_pixel_that_is_not_finite_comes_with_its_command() {
+    let room = Room::new();
+    let sound = include_str!("../../shaders/stages/film.comp");
+    let line = "vec3 radiance = path.radiance * frame.radiance_scale;";
+    let broken = "vec3 radiance = path.radiance * frame.radiance_scale;
+        uvec2 at = slot_place(slot).pixel;
+        if (at == uvec2(5u, 7u) || at == uvec2(2u, 9u)) radiance.y = uintBitsToFloat(0x7fc00000u);";
+    assert!(sound.contains(line), "the film kernel has changed: choose another line to break");
+    std::fs::create_dir_all(room.path("shaders/stages")).unwrap();
+    room.write("shaders/stages/film.comp", &sound.replace(line, broken));
+    let arguments = "render scene.toml --shaders shaders --crop 1,2,15,12 --first-sample 3 -o a.png";
+    let repeat = "dapple render scene.toml --shaders shaders --pixel 5,7 --first-sample 3";
+    let ran = room.run(arguments).code(0);
+    let ran =
+        ran.err_has("16 of 1120 samples were not finite and are left out, the first of them in pixel 5,7");
+    ran.err_has(&format!("repeat with: {repeat}\n"));
+    assert_eq!(
+        room.run(&format!("{arguments} --json")).code(0).event("done")["repeat"],
+        repeat.replace("--shaders shaders", "--shaders shaders --json")
+    );
+    // The command does what it says, and writes no picture
+    std::fs::remove_file(room.path("a.png")).unwrap();
+    room.run(repeat.strip_prefix("dapple ").unwrap()).code(0).err_has("8 of 8 samples were not finite");
+    assert_eq!(room.names(), ["scene.toml", "shaders"]);
+    assert!(room.run("render scene.toml --json").code(0).event("done")["repeat"].is_null());
+}
