@@ -35,8 +35,7 @@ fn shining(color: f32, two_sided: bool) -> Material {
 fn albedo_is_a_reflectance_or_light_up_to_1() {
     let plain = |surface| Material { surface, emission: None };
     expect_albedo(&wall(plain(Surface::Diffuse { color: grey(0.25) }), false), [0.25; 3]);
-    let phong =
-        Surface::Phong { diffuse: grey(0.9), specular: grey(0.6), exponent: Value::Constant(10.0) };
+    let phong = Surface::Phong { diffuse: grey(0.9), specular: grey(0.6), exponent: Value::Constant(10.0) };
     expect_albedo(&wall(plain(phong), false), [1.0; 3]);
     expect_albedo(&wall(plain(Surface::Unlit { color: Value::Constant(BRIGHT) }), false), [1.0, 0.5, 0.0]);
     // A lamp shows its light, on top of what it reflects; its dark back shows only that
