@@ -67,7 +67,7 @@ fn with_decoder<D: ImageDecoder>(decoder: Result<D, ImageError>, bytes: &[u8]) -
     finite(Image { width, height, texels })
 }
 
-/// Refuses numbers that are not finite: the first of them would spread over its neighbours by filtering, and over the
+/// Refuses numbers that are not finite: one of them would spread over its neighbours by filtering, and over the
 /// table by which light is chosen.
 pub(super) fn finite(image: Image) -> Result<Image> {
     let Texels::RgbaF32(texels) = &image.texels else { return Ok(image) };
