@@ -1,7 +1,7 @@
 //! Buffers in device memory.
 
-use super::device::{Gpu, Inner};
-use super::{Command, check};
+use super::device::{DeviceType, Gpu, Inner};
+use super::{Command, check, huge_pages};
 use crate::{Error, Result};
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -67,6 +67,9 @@ impl Gpu {
                 Error::device(format!("no memory for buffer `{name}` of {bytes} bytes: {error}"))
                     .help("use smaller meshes, textures or pictures, or another --device")
             })?;
+        if self.inner.info.kind == DeviceType::Cpu {
+            huge_pages::advise(&allocation);
+        }
         // SAFETY: the allocation fits the requirements of this buffer, and nothing is bound to it yet.
         let bound = unsafe { device.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) };
         *buffer.allocation() = Some(allocation);
@@ -99,6 +102,12 @@ impl Buffer {
 
     fn allocation(&self) -> MutexGuard<'_, Option<Allocation>> {
         self.allocation.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Where the host sees the buffer.
+    #[cfg(test)]
+    pub(super) fn mapped_address(&self) -> Option<usize> {
+        self.allocation().as_ref().and_then(Allocation::mapped_ptr).map(|start| start.as_ptr() as usize)
     }
 
     /// Writes to the start of the buffer; false when the host does not see it. The device must not be using it.

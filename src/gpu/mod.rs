@@ -6,6 +6,7 @@
 mod buffer;
 mod command;
 mod device;
+mod huge_pages;
 mod instance;
 mod pipeline;
 
