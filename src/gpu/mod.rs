@@ -8,6 +8,7 @@ mod command;
 mod device;
 mod huge_pages;
 mod instance;
+mod limits;
 mod pipeline;
 
 pub use buffer::{Buffer, Place};
