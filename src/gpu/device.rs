@@ -89,12 +89,12 @@ pub(super) struct Inner {
     pub(super) allocated_peak: AtomicU64,
 }
 
-/// All devices of this machine, in the order of the driver list.
+/// All devices of this machine, in the order of the driver list; `validation` as in [`DeviceChoice`].
 ///
 /// # Errors
 /// When there is no loader or driver.
-pub fn devices() -> Result<Vec<DeviceInfo>> {
-    let instance = Instance::new(false)?;
+pub fn devices(validation: bool) -> Result<Vec<DeviceInfo>> {
+    let instance = Instance::new(validation)?;
     Ok(candidates(&instance)?.into_iter().map(|(_, info)| info).collect())
 }
 

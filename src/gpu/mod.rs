@@ -14,6 +14,7 @@ mod pipeline;
 pub use buffer::{Buffer, Place};
 pub use command::{Command, Ticket};
 pub use device::{DeviceChoice, DeviceInfo, DeviceType, Gpu, Limits, choose, devices};
+pub use instance::{late_messages, validation_from_environment};
 pub use pipeline::{Bindings, Layout, Pipeline};
 
 use crate::{Error, Result};
