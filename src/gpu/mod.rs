@@ -32,3 +32,23 @@ fn check<T>(result: ash::prelude::VkResult<T>, what: &str) -> Result<T> {
         code => Error::device(format!("{what}: Vulkan says {code:?}")),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ErrorKind;
+
+    #[test]
+    fn results_of_vulkan_become_errors_with_a_next_step() {
+        let lost = check::<()>(Err(vk::Result::ERROR_DEVICE_LOST), "wait for the device").unwrap_err();
+        assert_eq!(lost.kind, ErrorKind::Device);
+        assert_eq!(lost.message, "the device was lost: wait for the device");
+        assert!(lost.help.unwrap().contains("choose another --device"));
+        let full = check::<()>(Err(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY), "make buffer `a`").unwrap_err();
+        assert_eq!(full.message, "out of device memory: make buffer `a`");
+        assert!(full.help.is_some());
+        let other = check::<()>(Err(vk::Result::ERROR_FRAGMENTED_POOL), "make a pool").unwrap_err();
+        assert_eq!(other.message, "make a pool: Vulkan says ERROR_FRAGMENTED_POOL");
+        assert_eq!(check(Ok(3), "count").unwrap(), 3);
+    }
+}
