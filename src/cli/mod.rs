@@ -53,13 +53,22 @@ pub fn run() -> ExitCode {
             return ExitCode::from(USAGE);
         }
     };
-    match outcome.and_then(|()| Ok(console.finish()?)) {
+    match outcome.and_then(|()| Ok(console.finish()?)).and_then(|()| Ok(nothing_late()?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             let code = exit_code(&failure.error);
             report::print(&failure, &mut console);
             code
         }
+    }
+}
+
+/// An error when the validation layer had something to say after all work was done.
+fn nothing_late() -> Result<(), Error> {
+    match dapple::gpu::late_messages() {
+        0 => Ok(()),
+        n => Err(Error::device(format!("{n} messages of the validation layer came after the work was done"))
+            .help("they are printed above")),
     }
 }
 
