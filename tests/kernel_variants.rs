@@ -136,6 +136,7 @@ fn lobes() -> Scene {
         place_shape(&mut scene, m, sphere());
     }
     scene.environment = surroundings(constant(1.0));
+    scene.film.transparent = true;
     scene.render.sampler = Sampler::Random;
     scene.film.filter.kind = FilterKind::BlackmanHarris;
     scene
@@ -179,7 +180,7 @@ fn scenes() -> [(&'static str, Scene); 5] {
         ("empty", Scene::default()),
         ("one triangle and a point light", plain()),
         ("shapes, instances, area lights, a lens", shapes()),
-        ("glass, metal, Phong, a constant environment", lobes()),
+        ("glass, metal, Phong, a constant environment behind a transparent film", lobes()),
         ("textures everywhere", textured()),
     ]
 }

@@ -114,6 +114,56 @@ fn huge_and_tiny_numbers_are_finite() {
 }
 
 #[test]
+fn the_power_of_the_brightest_lights_is_finite() {
+    let mut s = floor_under_lights();
+    s.lights.push(point(Vec3::Y, 1e38));
+    s.lights.push(point(Vec3::Y * 2.0, 1e38));
+    let lamp = s.emitter(grey(2e38), true);
+    s.quad(Vec3::new(-1.0, 3.0, -1.0), Vec3::X * 1e3, Vec3::Z * 1e3, lamp);
+    let bright = Image { width: 1, height: 1, texels: Texels::RgbaF32(vec![[3e38, 3e38, 3e38, 1.0]]) };
+    let texture = s.picture(bright, |_| {});
+    let lamp = s.emitter(Value::Texture(texture), true);
+    s.quad(Vec3::new(-1.0, 3.5, -1.0), Vec3::X * 1e3, Vec3::Z * 1e3, lamp);
+    let prepared = dapple::prepare::prepare(&s).unwrap();
+    let chances: Vec<f32> = prepared.lights.iter().map(|light| light.chance).collect();
+    // In proportion: 4π · 10³⁸ each, and 2π · 10⁶ · 2 · 10³⁸ and 3 · 10³⁸
+    let area = 0.5e6_f32;
+    let sum = 2.0 + 5.0 * area;
+    let expected = [2.0 * area / sum, 3.0 * area / sum, 1.0 / sum, 1.0 / sum];
+    for (chance, expected) in chances.iter().zip(expected) {
+        assert!((chance / expected - 1.0).abs() < 1e-5, "{chances:?}, expected {expected:?}");
+    }
+    assert_eq!(chances.len(), 4);
+
+    // Darkness is not what comes out: samples are clamped to what the film holds, or not finite and counted
+    let mut s = floor_under_lights();
+    s.lights.push(point(Vec3::Y * 1e3, 1e38));
+    let film = film_of(&s, options());
+    assert_eq!(film.left_out(), 0);
+    assert!(film.resolve().rgb.iter().all(|c| c[1] > 1e18), "{:?}", film.resolve().rgb[0]);
+
+    // A sky as bright: every direction has its chance
+    let mut s = floor_under_lights();
+    let sky = vec![[3e38, 3e38, 3e38, 1.0], [1e38, 1e38, 1e38, 1.0]];
+    let texture = s.picture(Image { width: 2, height: 1, texels: Texels::RgbaF32(sky) }, |_| {});
+    let radiance = Value::Texture(texture);
+    s.environment = Some(Environment { radiance, scale: 1.0, world_from_environment: glam::Mat3::IDENTITY });
+    let cells = dapple::prepare::prepare(&s).unwrap().environment;
+    let sum: f32 = cells.iter().map(|cell| cell.chance).sum();
+    assert!((sum - 1.0).abs() < 1e-5, "{cells:?}");
+}
+
+/// A white floor that a narrow camera looks down on.
+fn floor_under_lights() -> Scene {
+    let mut s = scene(4, 4, 4);
+    s.render.max_depth = 1;
+    s.camera = look(Vec3::new(0.3, 2.0, 0.1), Vec3::ZERO, 0.02);
+    let white = s.diffuse(1.0);
+    s.floor(white);
+    s
+}
+
+#[test]
 fn a_sphere_light_seen_from_inside() {
     // A small white ball in a large lamp that shines inward
     let mut s = scene(8, 8, 256);

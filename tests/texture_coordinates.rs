@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 fn device() -> &'static Mutex<(Arc<Gpu>, Compiler)> {
     static DEVICE: OnceLock<Mutex<(Arc<Gpu>, Compiler)>> = OnceLock::new();
     DEVICE.get_or_init(|| {
-        let validation = std::env::var_os("DAPPLE_VALIDATION").is_some();
+        let validation = dapple::gpu::validation_from_environment();
         let gpu = Gpu::open(&DeviceChoice { validation, ..DeviceChoice::default() }).unwrap();
         let compiler = Compiler::new(Sources::embedded(), CacheOptions::from_environment());
         Mutex::new((Arc::new(gpu), compiler))

@@ -1,5 +1,5 @@
 // Random numbers as a function of (pixel, sample, dimension, seed): no state.
-// SAMPLER is a switch of the variant; its values are those of src/shader/variant.rs.
+// SAMPLER is a switch of the variant; its values are those of src/prepare/variant.rs.
 #include "base/math.glsl"
 
 // The key of a sample's numbers.
@@ -58,7 +58,7 @@ uvec2 sobol_2d(uint index, uint seed)
     return uvec2(bitfieldReverse(x), bitfieldReverse(y));
 }
 
-// A permutation of 0..n, n <= 2^16: a hash that permutes the next power of two, walked along its cycle until it is back
+// A permutation of 0..n: a hash that permutes the next power of two, walked along its cycle until it is back
 // in range (Kensler 2013). It gives up after 32 steps, which happens for less than one index in 2^32.
 uint permute(uint i, uint n, uint seed)
 {
@@ -67,6 +67,7 @@ uint permute(uint i, uint n, uint seed)
     mask |= mask >> 2;
     mask |= mask >> 4;
     mask |= mask >> 8;
+    mask |= mask >> 16;
     for (uint walk = 0u; walk < 32u; ++walk) {
         // Rounds of steps that can be undone within the mask, each with other bits of the seed
         uint bits = seed;

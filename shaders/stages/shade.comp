@@ -1,10 +1,13 @@
 // One scattering event of every path in the queue: emission, light sampling, and the next direction.
-// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, ROULETTE, GEOMETRIC_VETO and those of the menus.
+// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, ROULETTE, GEOMETRIC_VETO,
+// TRANSPARENT_FILM and those of the menus.
 #include "stages/wave.glsl"
 #include "base/offset.glsl"
 #include "geometry/surface.glsl"
 #include "material/material.glsl"
+#include "material/medium.glsl"
 #include "light/light.glsl"
+#include "stages/aov.glsl"
 
 // Indirect light of a sample may be limited (firefly_clamp); direct light is not.
 vec3 limited(vec3 radiance, uint depth)
@@ -23,6 +26,9 @@ void add_emission(inout Path path, vec3 radiance, float light_sampling_pdf)
 
 void shade_miss(inout Path path, vec3 direction)
 {
+#ifdef TRANSPARENT_FILM
+    if ((path.flags & PATH_COVERED) == 0u) return;
+#endif
 #ifdef HAS_ENVIRONMENT
     add_emission(path, environment_radiance(direction), path.pdf > 0.0 ? environment_light_pdf(direction) : 0.0);
 #endif
@@ -39,6 +45,12 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
     float side = dot(light.wi, surface.geometric);
 #ifdef GEOMETRIC_VETO
     if (side * wi.z <= 0.0) return;
+#endif
+#ifdef HAS_MEDIUM
+    // A light from infinity is left as it is: no way out of the glass is free.
+    bool through = bsdf.kind == MATERIAL_DIELECTRIC && wo.z * wi.z < 0.0;
+    uint medium = through ? medium_beyond(bsdf, surface.material, side) : path.medium;
+    if (!light.infinite) light.radiance *= medium_transmittance(medium, distance(surface.position, light.point));
 #endif
     // The path ends here when `last`: then the BSDF will not look for the light.
     float weight = light.delta || last ? 1.0 : power_heuristic(light.pdf, bsdf_pdf(bsdf, wo, wi));
@@ -69,7 +81,7 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
 #ifdef HAS_DIELECTRIC
     if (s.through) {
         path.eta_scale *= s.eta * s.eta;
-        path.medium = bsdf.mode != 1u && side < 0.0 ? surface.material : NONE;
+        path.medium = medium_beyond(bsdf, surface.material, side);
     }
 #endif
     path.depth += 1u;
@@ -82,17 +94,6 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
 #endif
     ray = WaveRay(offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric), wi);
     return true;
-}
-
-// Albedo, depth and normal of the first surface that is neither mirror nor clear glass.
-void write_aov(uint slot, inout Path path, Surface surface, Bsdf bsdf)
-{
-    vec3 albedo = bsdf.kind == MATERIAL_DIELECTRIC ? vec3(1.0) : bsdf.color;
-    if (bsdf.kind == MATERIAL_PHONG) albedo += bsdf.specular;
-    float depth = distance(frame.camera_position, surface.position);
-    store_aovs(slot * AOV_WORDS, uvec4(floatBitsToUint(albedo), floatBitsToUint(depth)));
-    store_aovs(slot * AOV_WORDS + 1u, uvec4(floatBitsToUint(surface.normal), 0u));
-    path.flags |= PATH_HAS_AOV;
 }
 
 // One event; true when the path goes on.
@@ -108,26 +109,25 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     if (!front && surface.material == NONE) return false;
     Material material = material_fetch(surface.material);
 #ifdef HAS_MEDIUM
-    // Beer's law along the way inside glass. A camera inside it is known by the boundary that is met from behind.
+    // A camera inside glass is known by the boundary that is met from behind.
     bool from_inside = !front && material.kind == MATERIAL_DIELECTRIC && material.mode == 0u;
-    uint medium = path.medium == NONE && from_inside ? surface.material : path.medium;
-    if (medium != NONE) {
-        vec3 absorption = uintBitsToFloat(fetch_materials(medium * MATERIAL_WORDS + 2u).xyz);
-        path.throughput *= exp(-absorption * distance(ray.origin, surface.position));
-    }
+    if (path.medium == NONE && from_inside) path.medium = surface.material;
+    path.throughput *= medium_transmittance(path.medium, distance(ray.origin, surface.position));
 #endif
     vec3 facing_normal = front ? surface.normal : -surface.normal;
     TextureContext context =
         TextureContext(surface.position, surface.object_position, surface.uv, facing_normal, 0.0, 0.0);
     Bsdf bsdf = material_bsdf(material, context);
+    vec3 emitted = vec3(0.0);
     if (front || material.two_sided != 0u) {
+        emitted = material_emission(material, context);
         float pdf = 0.0;
         if (path.pdf > 0.0 && surface.light != NONE) pdf = light_pdf(surface.light, ray.origin, surface.position, surface.geometric);
-        add_emission(path, material_emission(material, context), pdf);
+        add_emission(path, emitted, pdf);
     }
     if (bsdf.kind == MATERIAL_UNLIT) path.radiance += limited(path.throughput * bsdf.color, path.depth);
     bool specular = bsdf_is_specular(bsdf);
-    if ((path.flags & PATH_HAS_AOV) == 0u && !specular) write_aov(slot, path, surface, bsdf);
+    if ((path.flags & PATH_HAS_AOV) == 0u && !specular) write_aov(slot, path, surface, bsdf, emitted, facing_normal);
     if (path.depth >= frame.max_depth || bsdf.kind == MATERIAL_UNLIT) return false;
 
     Basis basis = basis_along(surface.normal, surface.dpdu);

@@ -32,7 +32,8 @@ struct Contents {
     environment: bool,
     bvh_nodes: usize,
     stack_entries: u32,
-    device_bytes: u64,
+    /// Records of the scene on the device; film and waves of paths come on top, as large as the device likes them.
+    scene_bytes: u64,
     warnings: Vec<String>,
 }
 
@@ -71,7 +72,7 @@ impl Contents {
             environment: scene.environment.is_some(),
             bvh_nodes: prepared.nodes.len(),
             stack_entries: prepared.stack_entries,
-            device_bytes: prepared.bytes(),
+            scene_bytes: prepared.bytes(),
             warnings: warnings.iter().map(Warning::to_string).collect(),
         }
     }
@@ -92,7 +93,7 @@ impl Contents {
             ("environment", if self.environment { "yes" } else { "no" }.to_owned()),
             ("BVH nodes", self.bvh_nodes.to_string()),
             ("stack entries", self.stack_entries.to_string()),
-            ("on the device", bytes_text(self.device_bytes)),
+            ("scene records", bytes_text(self.scene_bytes)),
             ("warnings", self.warnings.len().to_string()),
         ];
         let mut out = String::new();

@@ -20,7 +20,7 @@ const VARIABLES: [&str; 8] = [
 
 /// Lists devices and variables. The variables come even when there is no driver: they may be the reason.
 pub fn run(json: bool, console: &mut Console) -> Result<()> {
-    let devices = gpu::devices();
+    let devices = gpu::devices(gpu::validation_from_environment());
     let set: Vec<(&str, String)> = VARIABLES
         .iter()
         .filter_map(|name| Some((*name, std::env::var_os(name)?.to_string_lossy().into_owned())))

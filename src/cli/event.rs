@@ -58,6 +58,8 @@ pub enum Event {
         clamped: u64,
         /// Why the render ended before all samples were done.
         stopped_by: Option<Reason>,
+        /// The command that renders the first pixel again that had a sample that was not finite.
+        repeat: Option<String>,
     },
     /// The end, with exit code 1 or 2.
     Error {

@@ -3,7 +3,7 @@
 use super::args::RenderArgs;
 use super::parse::{Pixel, Size};
 use dapple::film::{self, MAX_SAMPLES};
-use dapple::gpu::DeviceChoice;
+use dapple::gpu::{DeviceChoice, validation_from_environment};
 use dapple::import::{Warning, read_scene};
 use dapple::scene::{Film, Rect, Scene};
 use dapple::shader::{CacheOptions, Compiler, Sources};
@@ -45,7 +45,7 @@ impl Job {
             device: DeviceChoice {
                 wanted: args.device.clone(),
                 require_gpu: args.require_gpu,
-                validation: std::env::var_os("DAPPLE_VALIDATION").is_some_and(|value| value == "1"),
+                validation: validation_from_environment(),
             },
             compiler: Compiler::new(sources, CacheOptions::from_environment()),
         })

@@ -53,21 +53,34 @@ pub fn run() -> ExitCode {
             return ExitCode::from(USAGE);
         }
     };
-    match outcome.and_then(|()| Ok(console.finish()?)) {
+    match outcome.and_then(|()| Ok(console.finish()?)).and_then(|()| Ok(nothing_late()?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            let code = exit_code(failure.error.kind);
+            let code = exit_code(&failure.error);
             report::print(&failure, &mut console);
             code
         }
     }
 }
 
+/// An error when the validation layer had something to say after all work was done.
+fn nothing_late() -> Result<(), Error> {
+    match dapple::gpu::late_messages() {
+        0 => Ok(()),
+        n => Err(Error::device(format!("{n} messages of the validation layer came after the work was done"))
+            .help("they are printed above")),
+    }
+}
+
 /// Exit code of wrong arguments, and of wrong scenes.
 const USAGE: u8 = 2;
 
-fn exit_code(kind: ErrorKind) -> ExitCode {
-    match kind {
+/// How the message about a `--device` begins that no device has: the argument is wrong, not the machine.
+const UNKNOWN_DEVICE: &str = "no device `";
+
+fn exit_code(error: &Error) -> ExitCode {
+    match error.kind {
+        ErrorKind::Device if error.message.starts_with(UNKNOWN_DEVICE) => ExitCode::from(USAGE),
         ErrorKind::Scene => ExitCode::from(USAGE),
         ErrorKind::Device | ErrorKind::Output => ExitCode::from(1),
     }

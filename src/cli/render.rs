@@ -152,6 +152,8 @@ struct Summary {
     /// Samples of all pixels, those that were left out among them.
     samples: u64,
     left_out: u64,
+    /// The first pixel with samples that were left out.
+    left_out_at: Option<[u32; 2]>,
     clamped: u64,
     stopped_by: Option<Reason>,
     seconds: f64,
@@ -182,6 +184,7 @@ fn deliver(
         wanted,
         samples,
         left_out,
+        left_out_at: film.first_left_out(),
         clamped: film.clamped(),
         stopped_by: reason.filter(|_| samples < whole),
         seconds: took.as_secs_f64(),
@@ -192,15 +195,18 @@ fn deliver(
 
 impl Summary {
     fn tell(&self, job: &Job, console: &mut Console) {
-        let Self { spp, wanted, samples, left_out, clamped, stopped_by, seconds } = *self;
+        let Self { spp, wanted, samples, left_out, left_out_at, clamped, stopped_by, seconds } = *self;
         let file = job.file();
+        let repeat = left_out_at.map(|pixel| repeat::of_pixel(pixel, job.first_sample));
         if console.json() {
-            console.event(&Event::Done { file, spp, seconds, left_out, clamped, stopped_by });
+            console.event(&Event::Done { file, spp, seconds, left_out, clamped, stopped_by, repeat });
             return;
         }
-        if left_out > 0 {
-            console
-                .note(&format!("warning: {left_out} of {samples} samples were not finite and are left out"));
+        if let (Some([x, y]), Some(repeat)) = (left_out_at, repeat) {
+            console.note(&format!(
+                "warning: {left_out} of {samples} samples were not finite and are left out, the first of them in pixel \
+                 {x},{y}\nrepeat with: {repeat}"
+            ));
         }
         if clamped > 0 {
             console.note(&format!(

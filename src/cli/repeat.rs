@@ -4,22 +4,36 @@ use std::ffi::OsString;
 
 const FIRST_SAMPLE: &str = "--first-sample";
 
+/// Options that say what is rendered and where it goes, with a value each.
+const WINDOW: [&str; 5] = ["--crop", "--pixel", "--output", "-o", FIRST_SAMPLE];
+
 /// The arguments of this program again, but from sample `first` on.
 pub fn from_sample(first: u32) -> String {
-    command(std::env::args_os().skip(1), first)
+    format!("{} {FIRST_SAMPLE} {first}", command(std::env::args_os().skip(1), &[FIRST_SAMPLE]))
 }
 
-fn command(args: impl Iterator<Item = OsString>, first: u32) -> String {
+/// The arguments of this program again, but for one pixel, from sample `first` on, and without a picture.
+pub fn of_pixel([x, y]: [u32; 2], first: u32) -> String {
+    format!("{} --pixel {x},{y} {FIRST_SAMPLE} {first}", command(std::env::args_os().skip(1), &WINDOW))
+}
+
+/// The arguments without some options and their values.
+fn command(args: impl Iterator<Item = OsString>, without: &[&str]) -> String {
     let mut words = vec!["dapple".to_owned()];
     let mut args = args.map(|arg| arg.to_string_lossy().into_owned());
     while let Some(arg) = args.next() {
-        if arg == FIRST_SAMPLE {
+        // `--name value`, `--name=value`, `-n value`, `-nvalue`
+        let joined = |option: &&&str| match option.starts_with("--") {
+            true => arg.strip_prefix(**option).is_some_and(|rest| rest.starts_with('=')),
+            false => !arg.starts_with("--") && arg.starts_with(**option),
+        };
+        if without.contains(&arg.as_str()) {
             args.next();
-        } else if !arg.starts_with("--first-sample=") {
+        } else if !without.iter().any(|option| joined(&option)) {
             words.push(quoted(&arg));
         }
     }
-    format!("{} {FIRST_SAMPLE} {first}", words.join(" "))
+    words.join(" ")
 }
 
 /// A word for a POSIX shell.
@@ -37,13 +51,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_sample_replaces_that_of_the_user() {
-        let of = |words: &[&str]| command(words.iter().map(OsString::from), 12);
-        assert_eq!(of(&["render", "a.toml"]), "dapple render a.toml --first-sample 12");
+    fn options_are_replaced_and_the_rest_is_kept() {
+        let of = |words: &[&str], without: &[&str]| command(words.iter().map(OsString::from), without);
+        let first = |words: &[&str]| of(words, &[FIRST_SAMPLE]);
+        assert_eq!(first(&["render", "a.toml"]), "dapple render a.toml");
         assert_eq!(
-            of(&["render", "--first-sample", "3", "my scene.toml", "--set", "a.b=[1, 'x']"]),
-            r"dapple render 'my scene.toml' --set 'a.b=[1, '\''x'\'']' --first-sample 12"
+            first(&["render", "--first-sample", "3", "my scene.toml", "--set", "a.b=[1, 'x']"]),
+            r"dapple render 'my scene.toml' --set 'a.b=[1, '\''x'\'']'"
         );
-        assert_eq!(of(&["render", "--first-sample=3", ""]), "dapple render '' --first-sample 12");
+        assert_eq!(first(&["render", "--first-sample=3", "", "-oa.png"]), "dapple render '' -oa.png");
+        for output in [&["-o", "a.png"][..], &["-oa.png"], &["--output", "a.png"], &["--output=a.png"]] {
+            let words =
+                [&["render", "a.toml", "--crop=0,0,1,1", "--spp", "4"], output, &["--size=4x4"]].concat();
+            assert_eq!(of(&words, &WINDOW), "dapple render a.toml --spp 4 --size=4x4", "{output:?}");
+        }
     }
 }

@@ -191,6 +191,14 @@ impl Film {
         self.pixels.iter().map(|p| u64::from(p.left_out)).sum()
     }
 
+    /// The first pixel, row by row, that left out a sample because a channel was not finite: column and row in the
+    /// whole picture.
+    pub fn first_left_out(&self) -> Option<[u32; 2]> {
+        let (window, at) = (self.frame.window, self.pixels.iter().position(|p| p.left_out > 0)?);
+        let columns = window.width() as usize;
+        Some([window.x0 + (at % columns) as u32, window.y0 + (at / columns) as u32])
+    }
+
     /// Samples clamped to what the sums can hold, over all pixels.
     pub fn clamped(&self) -> u64 {
         self.pixels.iter().map(|p| u64::from(p.clamped)).sum()

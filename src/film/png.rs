@@ -1,36 +1,52 @@
-//! PNG: exposure, the sRGB curve, 8 or 16 bits, straight alpha.
+//! PNG: exposure, the sRGB curve, 8 or 16 bits, straight alpha, and what made the picture.
 
 use std::io;
 
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder, ImageError};
+use ::png::{BitDepth, ColorType, Encoder, EncodingError, ScaledFloat, SrgbRenderingIntent};
 
-use super::Picture;
+use super::{Meta, Picture};
 use crate::scene;
 
-/// Bytes of a PNG file of the window of the picture.
-pub(super) fn encode(picture: &Picture, film: &scene::Film) -> io::Result<Vec<u8>> {
+/// Bytes of a PNG file of the window of the picture. The same input gives the same bytes.
+pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::Result<Vec<u8>> {
     let pixels = straight_srgb(picture, film);
-    let bytes = match film.png_bits {
-        8 => pixels.map(|v| quantize(v, 255.0) as u8).collect(),
-        16 => pixels.flat_map(|v| quantize(v, 65535.0).to_ne_bytes()).collect::<Vec<u8>>(),
+    let (depth, bytes) = match film.png_bits {
+        8 => (BitDepth::Eight, pixels.map(|v| quantize(v, 255.0) as u8).collect()),
+        16 => {
+            (BitDepth::Sixteen, pixels.flat_map(|v| quantize(v, 65535.0).to_be_bytes()).collect::<Vec<u8>>())
+        }
         bits => return Err(io::Error::other(format!("{bits} bits a channel, a PNG has 8 or 16"))),
-    };
-    let kind = match (film.transparent, film.png_bits) {
-        (false, 8) => ExtendedColorType::Rgb8,
-        (true, 8) => ExtendedColorType::Rgba8,
-        (false, _) => ExtendedColorType::Rgb16,
-        (true, _) => ExtendedColorType::Rgba16,
     };
     let window = picture.frame.window;
     let mut file = Vec::new();
-    PngEncoder::new(&mut file).write_image(&bytes, window.width(), window.height(), kind).map_err(
-        |error| match error {
-            ImageError::IoError(error) => error,
-            other => io::Error::other(other),
-        },
-    )?;
+    let mut encoder = Encoder::new(&mut file, window.width(), window.height());
+    encoder.set_color(if film.transparent { ColorType::Rgba } else { ColorType::Rgb });
+    encoder.set_depth(depth);
+    encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+    // For readers that do not know the chunk of sRGB: the gamma that the standard has for them
+    encoder.set_source_gamma(ScaledFloat::from_scaled(45_455));
+    let write = |mut encoder: Encoder<'_, _>| -> Result<(), EncodingError> {
+        for (keyword, text) in texts(meta) {
+            encoder.add_text_chunk(keyword.to_owned(), text)?;
+        }
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&bytes)?;
+        writer.finish()
+    };
+    write(encoder).map_err(|error| match error {
+        EncodingError::IoError(error) => error,
+        other => io::Error::other(other),
+    })?;
     Ok(file)
+}
+
+/// What made the picture, under the names that an EXR has for it.
+fn texts(meta: &Meta) -> [(&'static str, String); 3] {
+    [
+        ("Software", concat!("dapple ", env!("CARGO_PKG_VERSION")).to_owned()),
+        ("dapple.seed", meta.seed.to_string()),
+        ("dapple.samplesPerPixel", meta.samples_per_pixel.to_string()),
+    ]
 }
 
 /// Channels of all pixels in order, encoded but not yet rounded; alpha, where it is written, is linear.
@@ -65,8 +81,11 @@ mod tests {
     use super::*;
     use crate::film::tests::picture_of;
     use crate::scene::Rect;
-    use image::{ColorType, DynamicImage, ImageReader};
+    use image::{DynamicImage, ImageReader};
     use std::io::Cursor;
+
+    const META: Meta =
+        Meta { seed: u32::MAX, samples_per_pixel: 1 << 20, radiance_exponent: -24, depth_exponent: -12 };
 
     fn decode(file: Vec<u8>) -> DynamicImage {
         ImageReader::with_format(Cursor::new(file), image::ImageFormat::Png).decode().unwrap()
@@ -106,13 +125,13 @@ mod tests {
         let window = Rect { x0: 1, y0: 2, x1: 3, y1: 3 };
         let mut picture = picture_of(5, 4, window);
         picture.rgb = vec![[0.0, 0.5, 1.0], [0.25, 2.0, 0.001]];
-        let eight = decode(encode(&picture, &film(0.0, 8, false)).unwrap());
-        assert_eq!(eight.color(), ColorType::Rgb8);
+        let eight = decode(encode(&picture, &film(0.0, 8, false), &META).unwrap());
+        assert_eq!(eight.color(), image::ColorType::Rgb8);
         assert_eq!((eight.width(), eight.height()), (2, 1));
         // 0.5 is 187.5 -> 188, 0.25 is 136.96 -> 137, 0.001 is 3.29 -> 3
         assert_eq!(eight.as_bytes(), [0, 188, 255, 137, 255, 3]);
-        let sixteen = decode(encode(&picture, &film(0.0, 16, false)).unwrap());
-        assert_eq!(sixteen.color(), ColorType::Rgb16);
+        let sixteen = decode(encode(&picture, &film(0.0, 16, false), &META).unwrap());
+        assert_eq!(sixteen.color(), image::ColorType::Rgb16);
         assert_eq!(sixteen.into_rgb16().into_raw(), [0, 48192, 65535, 35199, 65535, 847]);
     }
 
@@ -120,9 +139,12 @@ mod tests {
     fn exposure_is_in_stops() {
         let mut picture = picture_of(1, 1, Rect { x0: 0, y0: 0, x1: 1, y1: 1 });
         picture.rgb = vec![[0.125, 0.25, 0.5]];
-        let lifted = decode(encode(&picture, &film(1.0, 8, false)).unwrap());
+        let lifted = decode(encode(&picture, &film(1.0, 8, false), &META).unwrap());
         picture.rgb = vec![[0.25, 0.5, 1.0]];
-        assert_eq!(lifted.as_bytes(), decode(encode(&picture, &film(0.0, 8, false)).unwrap()).as_bytes());
+        assert_eq!(
+            lifted.as_bytes(),
+            decode(encode(&picture, &film(0.0, 8, false), &META).unwrap()).as_bytes()
+        );
     }
 
     #[test]
@@ -130,17 +152,42 @@ mod tests {
         let mut picture = picture_of(3, 1, Rect { x0: 0, y0: 0, x1: 3, y1: 1 });
         picture.rgb = vec![[0.25, 0.125, 0.0], [0.5, 0.5, 0.5], [0.5, 0.0, 0.0]];
         picture.alpha = vec![0.5, 1.0, 0.0];
-        let file = decode(encode(&picture, &film(0.0, 8, true)).unwrap());
-        assert_eq!(file.color(), ColorType::Rgba8);
+        let file = decode(encode(&picture, &film(0.0, 8, true), &META).unwrap());
+        assert_eq!(file.color(), image::ColorType::Rgba8);
         assert_eq!(file.as_bytes(), [188, 137, 0, 128, 188, 188, 188, 255, 0, 0, 0, 0]);
-        let file = decode(encode(&picture, &film(0.0, 16, true)).unwrap()).into_rgba16().into_raw();
+        let file = decode(encode(&picture, &film(0.0, 16, true), &META).unwrap()).into_rgba16().into_raw();
         assert_eq!(file[..4], [48192, 35199, 0, 32768]);
+    }
+
+    #[test]
+    fn says_what_made_it_and_that_it_is_srgb() {
+        let picture = picture_of(1, 1, Rect { x0: 0, y0: 0, x1: 1, y1: 1 });
+        for (bits, transparent) in [(8, false), (16, true)] {
+            let file = encode(&picture, &film(0.0, bits, transparent), &META).unwrap();
+            assert!(encode(&picture, &film(0.0, bits, transparent), &META).unwrap() == file);
+            let reader = ::png::Decoder::new(Cursor::new(file)).read_info().unwrap();
+            let info = reader.info();
+            let texts: Vec<(&str, &str)> = info
+                .uncompressed_latin1_text
+                .iter()
+                .map(|chunk| (chunk.keyword.as_str(), chunk.text.as_str()))
+                .collect();
+            let software = concat!("dapple ", env!("CARGO_PKG_VERSION"));
+            let expected = [
+                ("Software", software),
+                ("dapple.seed", "4294967295"),
+                ("dapple.samplesPerPixel", "1048576"),
+            ];
+            assert_eq!(texts, expected);
+            assert_eq!(info.srgb, Some(SrgbRenderingIntent::RelativeColorimetric));
+            assert_eq!(info.gama_chunk.map(|gamma| gamma.into_scaled()), Some(45_455));
+        }
     }
 
     #[test]
     fn refuses_other_depths() {
         let picture = picture_of(1, 1, Rect { x0: 0, y0: 0, x1: 1, y1: 1 });
-        let error = encode(&picture, &film(0.0, 12, false)).unwrap_err();
+        let error = encode(&picture, &film(0.0, 12, false), &META).unwrap_err();
         assert_eq!(error.to_string(), "12 bits a channel, a PNG has 8 or 16");
     }
 }

@@ -8,15 +8,15 @@ use super::{Film, Frame};
 pub struct Picture {
     /// Size, window, units and seed of the film that it comes from.
     pub frame: Frame,
-    /// Radiance, linear red, green, blue; premultiplied where the background adds nothing.
+    /// Radiance, linear red, green, blue; of a transparent film without the sky behind the scene, so premultiplied.
     pub rgb: Vec<[f32; 3]>,
     /// Part of the samples whose camera ray hit something.
     pub alpha: Vec<f32>,
-    /// Mean albedo, red, green, blue.
+    /// Mean albedo from 0 to 1, red, green, blue; what shines counts as far as there is room.
     pub albedo: Vec<[f32; 3]>,
-    /// Mean normal in world space; shorter than 1 where the normals of the samples differ.
+    /// Mean normal in world space, on the side that is seen; shorter than 1 where the normals of the samples differ.
     pub normal: Vec<[f32; 3]>,
-    /// Mean distance, in scene units, over the samples that have one; infinite where none has.
+    /// Mean distance from the camera, in scene units, over the samples that have one; infinite where none has.
     pub depth: Vec<f32>,
     /// Variance of `rgb`, from the squares of the samples as if these were independent: 0 below two samples.
     /// Conservative (too large) under Owen-scrambled Sobol and stratified samples, which err less than that.

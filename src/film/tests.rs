@@ -64,6 +64,21 @@ fn every_word_has_its_place() {
 }
 
 #[test]
+fn the_first_pixel_that_left_a_sample_out_has_its_place_in_the_picture() {
+    let mut film = Film::new(FRAME).unwrap();
+    assert_eq!(film.first_left_out(), None);
+    let count = WINDOW.area() as usize;
+    let mut words = vec![0; count * WORDS_PER_PIXEL];
+    let mut planes = [[0; 4]; 9];
+    planes[2][3] = 1;
+    // Window of 5 columns from 2,1: pixel 8 is 5,2 and pixel 11 is 3,3
+    put(&mut words, count, 8, &planes);
+    put(&mut words, count, 11, &planes);
+    film.add(WINDOW, &words).unwrap();
+    assert_eq!(film.first_left_out(), Some([5, 2]));
+}
+
+#[test]
 fn variance_is_in_squared_radiance() {
     // Red samples 1 and 3 in units of 2^-24: mean 2, variance of the mean 1
     let (unit, mut planes) = (1u64 << 24, [[0; 4]; 9]);

@@ -17,7 +17,7 @@ pub enum Format {
     Exr,
 }
 
-/// What an EXR says about how it was made.
+/// What a file says about how it was made; a PNG says no units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Meta {
     /// Seed of all random numbers.
@@ -31,7 +31,7 @@ pub struct Meta {
 }
 
 impl Film {
-    /// What an EXR of this film says about how it was made.
+    /// What a file of this film says about how it was made.
     pub fn meta(&self) -> Meta {
         let frame = self.frame();
         Meta {
@@ -81,7 +81,7 @@ pub fn check_target(path: &Path) -> Result<Format> {
 /// As [`format_of`], or when the file cannot be written; a file of that name is then as before.
 pub fn write(path: &Path, picture: &Picture, film: &scene::Film, meta: &Meta) -> Result<()> {
     let bytes = match format_of(path)? {
-        Format::Png => png::encode(picture, film),
+        Format::Png => png::encode(picture, film, meta),
         Format::Exr => exr::encode(picture, film, meta),
     };
     bytes

@@ -1,7 +1,8 @@
 //! Buffers in device memory.
 
-use super::device::{Gpu, Inner};
-use super::{Command, check};
+use super::device::{DeviceType, Gpu, Inner};
+use super::{Command, check, huge_pages, limits};
+use crate::layout::WORD_BYTES;
 use crate::{Error, Result};
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -24,14 +25,25 @@ pub enum Place {
 pub struct Buffer {
     pub(super) raw: vk::Buffer,
     bytes: u64,
+    place: Place,
     allocation: Mutex<Option<Allocation>>,
     inner: Arc<Inner>,
 }
 
 impl Gpu {
-    /// Makes a buffer of at least `bytes`, a whole number of words. `name` is used in messages.
+    /// Makes a buffer of at least `bytes`, a whole number of words. `name` is used in messages; one of the table of
+    /// bindings tells how the buffer will be bound.
+    ///
+    /// # Errors
+    /// When it is too long to be bound, or the device has no memory left for it. Both are known before memory is taken.
     pub fn buffer(&self, name: &str, bytes: u64, place: Place) -> Result<Arc<Buffer>> {
-        let bytes = bytes.max(16).next_multiple_of(16);
+        let bytes = bytes.max(WORD_BYTES).checked_next_multiple_of(WORD_BYTES).unwrap_or(u64::MAX);
+        let known = &self.inner.info;
+        limits::check_buffer(&known.limits, &known.name, name, bytes)?;
+        if place == Place::Device {
+            let in_use = self.inner.on_device.load(Ordering::Relaxed);
+            limits::check_memory(self.inner.memory, &known.name, name, bytes, in_use)?;
+        }
         let info = vk::BufferCreateInfo::default().size(bytes).usage(
             vk::BufferUsageFlags::STORAGE_BUFFER
                 | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
@@ -43,7 +55,7 @@ impl Gpu {
         let device = &self.inner.device;
         // SAFETY: the device is alive and `info` lives until the call returns.
         let raw = check(unsafe { device.create_buffer(&info, None) }, &format!("make buffer `{name}`"))?;
-        let buffer = Buffer { raw, bytes, allocation: Mutex::new(None), inner: self.inner.clone() };
+        let buffer = Buffer { raw, bytes, place, allocation: Mutex::new(None), inner: self.inner.clone() };
         // SAFETY: the buffer was just made on this device.
         let requirements = unsafe { device.get_buffer_memory_requirements(raw) };
         let location = match place {
@@ -67,9 +79,15 @@ impl Gpu {
                 Error::device(format!("no memory for buffer `{name}` of {bytes} bytes: {error}"))
                     .help("use smaller meshes, textures or pictures, or another --device")
             })?;
+        if self.inner.info.kind == DeviceType::Cpu {
+            huge_pages::advise(&allocation);
+        }
         // SAFETY: the allocation fits the requirements of this buffer, and nothing is bound to it yet.
         let bound = unsafe { device.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) };
         *buffer.allocation() = Some(allocation);
+        if place == Place::Device {
+            self.inner.on_device.fetch_add(bytes, Ordering::Relaxed);
+        }
         let now = self.inner.allocated.fetch_add(bytes, Ordering::Relaxed) + bytes;
         self.inner.allocated_peak.fetch_max(now, Ordering::Relaxed);
         check(bound, &format!("bind memory to buffer `{name}`"))?;
@@ -77,6 +95,9 @@ impl Gpu {
     }
 
     /// Makes a buffer on the device that holds `words`; at least one word long.
+    ///
+    /// # Errors
+    /// As [`Gpu::buffer`], or when copying fails.
     pub fn upload(&self, name: &str, parts: &[&[u8]]) -> Result<Arc<Buffer>> {
         let bytes = parts.iter().map(|part| part.len() as u64).sum();
         let buffer = self.buffer(name, bytes, Place::Device)?;
@@ -100,6 +121,12 @@ impl Buffer {
 
     fn allocation(&self) -> MutexGuard<'_, Option<Allocation>> {
         self.allocation.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Where the host sees the buffer.
+    #[cfg(test)]
+    pub(super) fn mapped_address(&self) -> Option<usize> {
+        self.allocation().as_ref().and_then(Allocation::mapped_ptr).map(|start| start.as_ptr() as usize)
     }
 
     /// Writes to the start of the buffer; false when the host does not see it. The device must not be using it.
@@ -135,6 +162,9 @@ impl Drop for Buffer {
         unsafe { self.inner.device.destroy_buffer(self.raw, None) };
         if let Some(allocation) = self.allocation().take() {
             self.inner.allocated.fetch_sub(self.bytes, Ordering::Relaxed);
+            if self.place == Place::Device {
+                self.inner.on_device.fetch_sub(self.bytes, Ordering::Relaxed);
+            }
             let mut allocator = self.inner.allocator.lock().unwrap_or_else(PoisonError::into_inner);
             // Freeing fails only for memory of another allocator.
             _ = allocator.free(allocation);

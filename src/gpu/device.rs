@@ -1,7 +1,7 @@
 //! Choosing a device and opening it.
 
-use super::check;
 use super::instance::{Instance, no_driver};
+use super::{check, limits};
 use crate::{Error, Result};
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
@@ -82,13 +82,19 @@ pub(super) struct Inner {
     pub(super) allocator: ManuallyDrop<Mutex<Allocator>>,
     pub(super) info: DeviceInfo,
     pub(super) instance: Arc<Instance>,
+    /// Bytes that buffers on the device may take together, and those that they take.
+    pub(super) memory: u64,
+    pub(super) on_device: AtomicU64,
     pub(super) allocated: AtomicU64,
     pub(super) allocated_peak: AtomicU64,
 }
 
-/// All devices of this machine, in the order of the driver list.
-pub fn devices() -> Result<Vec<DeviceInfo>> {
-    let instance = Instance::new(false)?;
+/// All devices of this machine, in the order of the driver list; `validation` as in [`DeviceChoice`].
+///
+/// # Errors
+/// When there is no loader or driver.
+pub fn devices(validation: bool) -> Result<Vec<DeviceInfo>> {
+    let instance = Instance::new(validation)?;
     Ok(candidates(&instance)?.into_iter().map(|(_, info)| info).collect())
 }
 
@@ -103,6 +109,9 @@ pub fn choose(choice: &DeviceChoice) -> Result<DeviceInfo> {
 
 impl Gpu {
     /// Opens the chosen device.
+    ///
+    /// # Errors
+    /// When there is no loader or driver, no device fits the choice, or the driver refuses.
     pub fn open(choice: &DeviceChoice) -> Result<Self> {
         let instance = Instance::new(choice.validation)?;
         let (physical, info) = pick(candidates(&instance)?, choice)?;
@@ -130,6 +139,8 @@ impl Gpu {
                 device,
                 queue: Mutex::new(queue),
                 queue_family,
+                memory: limits::memory_of(&info),
+                on_device: AtomicU64::new(0),
                 allocator: ManuallyDrop::new(Mutex::new(allocator)),
                 info,
                 instance,

@@ -6,12 +6,15 @@
 mod buffer;
 mod command;
 mod device;
+mod huge_pages;
 mod instance;
+mod limits;
 mod pipeline;
 
 pub use buffer::{Buffer, Place};
 pub use command::{Command, Ticket};
 pub use device::{DeviceChoice, DeviceInfo, DeviceType, Gpu, Limits, choose, devices};
+pub use instance::{late_messages, validation_from_environment};
 pub use pipeline::{Bindings, Layout, Pipeline};
 
 use crate::{Error, Result};
@@ -28,4 +31,24 @@ fn check<T>(result: ash::prelude::VkResult<T>, what: &str) -> Result<T> {
         vk::Result::ERROR_OUT_OF_HOST_MEMORY => Error::device(format!("out of host memory: {what}")),
         code => Error::device(format!("{what}: Vulkan says {code:?}")),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ErrorKind;
+
+    #[test]
+    fn results_of_vulkan_become_errors_with_a_next_step() {
+        let lost = check::<()>(Err(vk::Result::ERROR_DEVICE_LOST), "wait for the device").unwrap_err();
+        assert_eq!(lost.kind, ErrorKind::Device);
+        assert_eq!(lost.message, "the device was lost: wait for the device");
+        assert!(lost.help.unwrap().contains("choose another --device"));
+        let full = check::<()>(Err(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY), "make buffer `a`").unwrap_err();
+        assert_eq!(full.message, "out of device memory: make buffer `a`");
+        assert!(full.help.is_some());
+        let other = check::<()>(Err(vk::Result::ERROR_FRAGMENTED_POOL), "make a pool").unwrap_err();
+        assert_eq!(other.message, "make a pool: Vulkan says ERROR_FRAGMENTED_POOL");
+        assert_eq!(check(Ok(3), "count").unwrap(), 3);
+    }
 }

@@ -1,7 +1,7 @@
 //! Compute pipelines and what is bound to them. All kernels share the descriptor set of [`crate::layout::BINDINGS`].
 
 use super::device::{Gpu, Inner};
-use super::{Buffer, Place, check};
+use super::{Buffer, Place, check, limits};
 use crate::layout::{BINDINGS, Backend, Binding, BindingKind, WORD_BYTES};
 use crate::{Error, Result};
 use ash::vk;
@@ -156,7 +156,7 @@ impl Bindings {
     ) -> Result<()> {
         self.keep.push(buffer.clone());
         let inner = &self.layout.inner;
-        check_limit(inner, name, kind, buffer.bytes())?;
+        limits::check_range(&inner.info.limits, &inner.info.name, name, kind, buffer.bytes())?;
         let buffers = [vk::DescriptorBufferInfo::default().buffer(buffer.raw).range(vk::WHOLE_SIZE)];
         let mut texels = [vk::BufferView::null()];
         let write =
@@ -179,26 +179,6 @@ impl Bindings {
         unsafe { inner.device.update_descriptor_sets(&[write], &[]) };
         Ok(())
     }
-}
-
-/// An error that names the buffer and the limit when a buffer is too long to be bound.
-fn check_limit(inner: &Inner, name: &str, kind: vk::DescriptorType, bytes: u64) -> Result<()> {
-    let limits = &inner.info.limits;
-    let (limit, what) = match kind {
-        vk::DescriptorType::UNIFORM_TEXEL_BUFFER => {
-            (limits.texel_buffer_elements * WORD_BYTES, "maxTexelBufferElements")
-        }
-        vk::DescriptorType::STORAGE_BUFFER => (limits.storage_buffer_bytes, "maxStorageBufferRange"),
-        _ => return Ok(()),
-    };
-    if bytes <= limit {
-        return Ok(());
-    }
-    Err(Error::device(format!(
-        "`{name}` takes {bytes} bytes, but {what} of device `{}` allows {limit}",
-        inner.info.name
-    ))
-    .help("use fewer or smaller meshes and textures, or another --device"))
 }
 
 impl Drop for Layout {

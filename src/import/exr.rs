@@ -1,6 +1,6 @@
 //! OpenEXR files.
 
-use super::image::{check_plausible, check_size};
+use super::image::{check_plausible, check_size, finite};
 use crate::scene::{Image, Texels};
 use crate::{Error, Result};
 use exr::prelude::{FlatSamples, MetaData, ReadChannels, ReadLayers, Text, Vec2, read};
@@ -46,7 +46,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
             FlatSamples::U32(s) => values.zip(s).for_each(|(value, s)| *value = *s as f32),
         }
     }
-    Ok(Image { width, height, texels: Texels::RgbaF32(texels) })
+    finite(Image { width, height, texels: Texels::RgbaF32(texels) })
 }
 
 fn refused(error: exr::error::Error) -> Error {

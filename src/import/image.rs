@@ -19,8 +19,8 @@ const LARGEST_SIDE: u32 = 16384;
 /// or the only channel as grey. Orientation tags and colour profiles are passed over.
 ///
 /// # Errors
-/// A file that cannot be read, is of another format, is damaged, is larger than 16384 × 16384, or announces more
-/// pixels than its bytes could hold.
+/// A file that cannot be read, is of another format, is damaged, is larger than 16384 × 16384, announces more
+/// pixels than its bytes could hold, or has a number that is not finite.
 pub fn read_image(path: &Path) -> Result<Image> {
     decode(&read_bytes(path)?).map_err(|error| error.in_file(path))
 }
@@ -64,7 +64,24 @@ fn with_decoder<D: ImageDecoder>(decoder: Result<D, ImageError>, bytes: &[u8]) -
         2 => Texels::Rgba16(group(&picture.into_rgba16())),
         _ => Texels::RgbaF32(group(&picture.into_rgba32f())),
     };
-    Ok(Image { width, height, texels })
+    finite(Image { width, height, texels })
+}
+
+/// Refuses numbers that are not finite: one of them would spread over its neighbours by filtering, and over the
+/// table by which light is chosen.
+pub(super) fn finite(image: Image) -> Result<Image> {
+    let Texels::RgbaF32(texels) = &image.texels else { return Ok(image) };
+    let Some(at) = texels.iter().position(|texel| !texel.iter().all(|x| x.is_finite())) else {
+        return Ok(image);
+    };
+    let (x, y) = (at % image.width as usize, at / image.width as usize);
+    let named = ["red", "green", "blue", "alpha"].into_iter().zip(texels[at]);
+    let wrong: Vec<String> = named
+        .filter(|(_, value)| !value.is_finite())
+        .map(|(name, value)| format!("{name} of the pixel {x},{y} is {value}"))
+        .collect();
+    Err(Error::scene(format!("{}, must be a finite number", wrong.join(", ")))
+        .help("write the picture again with finite numbers, at most 65504 in 16-bit floats"))
 }
 
 fn group<T: Copy>(channels: &[T]) -> Vec<[T; 4]> {
@@ -183,6 +200,36 @@ mod tests {
         assert_eq!(floats(&exr_file(Compression::PXR24, &["R"]))[5], [5.0, 0.0, 0.0, 1.0]);
         let error = decode(&exr_file(Compression::RLE, &["P", "Q"])).unwrap_err();
         assert!(error.message.contains("only the channels P, Q"), "{error}");
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_refused_with_their_pixel() {
+        let file = |name: &str, at: usize, value: f32| {
+            let mut samples = vec![1.0_f32; 12];
+            samples[at] = value;
+            let channels =
+                AnyChannels::sort([AnyChannel::new(name, FlatSamples::F32(samples))].into_iter().collect());
+            let layer = Layer::new(Vec2(4, 3), LayerAttributes::named("l"), Encoding::UNCOMPRESSED, channels);
+            let mut bytes = Cursor::new(Vec::new());
+            ::exr::image::Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes).unwrap();
+            bytes.into_inner()
+        };
+        for (name, at, value, expected) in [
+            ("R", 0, f32::NAN, "red of the pixel 0,0 is NaN"),
+            ("G", 6, f32::INFINITY, "green of the pixel 2,1 is inf"),
+            ("B", 11, f32::NEG_INFINITY, "blue of the pixel 3,2 is -inf"),
+        ] {
+            let error = decode(&file(name, at, value)).unwrap_err();
+            assert_eq!(error.message, format!("{expected}, must be a finite number"));
+            assert!(error.help.is_some());
+        }
+        // With the name of the file
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sun.exr");
+        std::fs::write(&path, file("R", 5, f32::NAN)).unwrap();
+        let error = read_image(&path).unwrap_err();
+        assert_eq!(error.place.unwrap().file, path);
+        assert!(decode(&file("R", 5, f32::MAX)).is_ok());
     }
 
     #[test]

@@ -63,7 +63,7 @@ fn cell(read: &Reader<'_>, image: &Image, column: u32, row_from_top: u32, size: 
     for y in y0..y1 {
         for x in x0..x1 {
             let [r, g, b, _] = read.linear(x, y);
-            sum += f64::from(r + g + b).max(0.0);
+            sum += (f64::from(r) + f64::from(g) + f64::from(b)).max(0.0);
         }
     }
     sum / (f64::from(x1 - x0) * f64::from(y1 - y0))

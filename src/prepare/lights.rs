@@ -8,12 +8,13 @@ use crate::layout::{
 };
 use crate::scene::{self, Emission, Mesh, Scene, ShapeKind, Value};
 use glam::{Affine3A, Vec2, Vec3};
-use std::f32::consts::PI;
+use std::f64::consts::PI;
 
-/// A light before the table is built: its record and its power in watts; none for light from infinity.
+/// A light before the table is built: its record and its power in watts; none for light from infinity. Powers of lights
+/// that floats can hold may be beyond floats.
 struct Entry {
     light: Light,
-    power: Option<f32>,
+    power: Option<f64>,
 }
 
 /// Fills `lights`, the light of each instance, and the chance of the environment.
@@ -34,12 +35,11 @@ pub(super) fn prepare(scene: &Scene, textures: &References, placed: Vec<Placed>,
     }
     entries.extend(scene.lights.iter().map(punctual));
     let environment = scene.environment.is_some();
-    let lamps = entries.iter().filter_map(|entry| entry.power).map(f64::from).sum::<f64>();
+    let lamps = entries.iter().filter_map(|entry| entry.power).sum::<f64>();
     let distant = entries.iter().filter(|entry| entry.power.is_none()).count();
     let share = 1.0 / (distant + usize::from(environment) + usize::from(lamps > 0.0)).max(1) as f64;
-    let weight = |entry: &Entry| {
-        entry.power.map_or(share, |power| share * f64::from(power) / lamps.max(f64::MIN_POSITIVE))
-    };
+    let weight =
+        |entry: &Entry| entry.power.map_or(share, |power| share * (power / lamps.max(f64::MIN_POSITIVE)));
     let weights: Vec<f64> = entries.iter().map(weight).collect();
     let useful = weights.iter().any(|weight| *weight > 0.0);
     out.features.environment = environment;
@@ -61,9 +61,14 @@ pub(super) fn prepare(scene: &Scene, textures: &References, placed: Vec<Placed>,
     }
 }
 
-fn surface_light(emission: &Emission, textures: &References, kind: u32) -> (Light, f32) {
+/// Mean of a colour.
+fn mean(c: Vec3) -> f64 {
+    c.as_dvec3().element_sum() / 3.0
+}
+
+fn surface_light(emission: &Emission, textures: &References, kind: u32) -> (Light, f64) {
     let (radiance, texture, brightness) = match emission.radiance {
-        Value::Constant(c) => (c, NONE, c.element_sum() / 3.0),
+        Value::Constant(c) => (c, NONE, mean(c)),
         Value::Texture(handle) => (Vec3::ONE, textures.reference(handle), textures.mean(handle)),
     };
     let sides = if emission.two_sided { 2.0 } else { 1.0 };
@@ -96,14 +101,15 @@ fn push_shape(scene: &Scene, index: usize, map: &Affine3A, textures: &References
         light.a = if is_sphere(x, y, z) { x.length() } else { 0.0 };
         (light.uv0, light.uv1) = ([z.x, z.y], [z.z, 0.0]);
     }
-    light.b = match shape.kind {
+    let (x, y, z) = (x.as_dvec3(), y.as_dvec3(), z.as_dvec3());
+    let area = match shape.kind {
         // Of a sphere of the same volume: for an ellipsoid a good guess, and only its power depends on it.
-        ShapeKind::Sphere { .. } => 4.0 * PI * m.determinant().abs().powf(2.0 / 3.0),
+        ShapeKind::Sphere { .. } => 4.0 * PI * x.cross(y).dot(z).abs().powf(2.0 / 3.0),
         ShapeKind::Disk { .. } => PI * x.cross(y).length(),
         ShapeKind::Quad { .. } => x.cross(y).length(),
     };
-    let power = Some(exitance * light.b);
-    entries.push(Entry { light, power });
+    light.b = area as f32;
+    entries.push(Entry { light, power: Some(exitance * area) });
 }
 
 /// Whether the axes of a mapped sphere are as long as one another, and at right angles, but for rounding.
@@ -155,12 +161,11 @@ fn triangle(mesh: &Mesh, index: usize, map: &Affine3A, emission: &Emission, text
     light.b = 0.5 * (b - a).cross(c - a).length();
     light.uv0 = uv(0).to_array();
     (light.uv1, light.uv2) = ((uv(1) - uv(0)).to_array(), (uv(2) - uv(0)).to_array());
-    Entry { power: Some(exitance * light.b), light }
+    Entry { power: Some(exitance * f64::from(light.b)), light }
 }
 
 fn punctual(light: &scene::Light) -> Entry {
     let base = Light { texture: NONE, ..Light::default() };
-    let mean = |c: &Vec3| c.element_sum() / 3.0;
     match light {
         scene::Light::Point { position, intensity } => Entry {
             light: Light {
@@ -169,7 +174,7 @@ fn punctual(light: &scene::Light) -> Entry {
                 radiance: intensity.to_array(),
                 ..base
             },
-            power: Some(4.0 * PI * mean(intensity)),
+            power: Some(4.0 * PI * mean(*intensity)),
         },
         scene::Light::Spot { position, direction, intensity, cone_angle, falloff_angle } => {
             let inner = (cone_angle - falloff_angle).to_radians().cos();
@@ -184,7 +189,7 @@ fn punctual(light: &scene::Light) -> Entry {
                     b: outer,
                     ..base
                 },
-                power: Some(2.0 * PI * (1.0 - 0.5 * (inner + outer)) * mean(intensity)),
+                power: Some(2.0 * PI * (1.0 - 0.5 * f64::from(inner + outer)) * mean(*intensity)),
             }
         }
         scene::Light::Distant { direction, irradiance } => Entry {

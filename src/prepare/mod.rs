@@ -160,6 +160,10 @@ pub struct Features {
 }
 
 /// Prepares a scene.
+///
+/// # Errors
+///
+/// When the scene is too large for 32-bit floats or for the sizes that the kernels count in.
 pub fn prepare(scene: &Scene) -> Result<Prepared> {
     let mut out = Prepared {
         root: crate::layout::NONE,

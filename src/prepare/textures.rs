@@ -15,7 +15,7 @@ use std::fmt::Write as _;
 /// References of the textures of a scene, and how bright they are.
 pub(super) struct References {
     references: Vec<u32>,
-    means: Vec<f32>,
+    means: Vec<f64>,
     maxima: Vec<f32>,
 }
 
@@ -26,7 +26,7 @@ impl References {
     }
 
     /// Mean of its values over the picture.
-    pub(super) fn mean(&self, handle: Handle<Texture>) -> f32 {
+    pub(super) fn mean(&self, handle: Handle<Texture>) -> f64 {
         self.means[handle.index()]
     }
 
@@ -71,7 +71,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
 }
 
 /// Mean brightness over the picture, for the power of a light; and its largest value, for the unit of the sums.
-fn brightness(texture: &scene::ImageTexture, image: &scene::Image) -> (f32, f32) {
+fn brightness(texture: &scene::ImageTexture, image: &scene::Image) -> (f64, f32) {
     let read = Reader { image, decode: texture.color_space == scene::ColorSpace::Srgb };
     let value = |x, y| {
         let [r, g, b, a] = read.linear(x, y);
@@ -82,17 +82,17 @@ fn brightness(texture: &scene::ImageTexture, image: &scene::Image) -> (f32, f32)
             Channel::B => [b; 3],
             Channel::A => [a; 3],
         };
-        rgb.map(|c| if texture.invert { 1.0 - c } else { c } * texture.scale)
+        rgb.map(|c| f64::from(if texture.invert { 1.0 - c } else { c }) * f64::from(texture.scale))
     };
-    let (mut sum, mut max) = (0.0_f64, 0.0_f32);
+    let (mut sum, mut max) = (0.0_f64, 0.0_f64);
     for y in 0..image.height {
         for x in 0..image.width {
             let [r, g, b] = value(x, y);
-            sum += f64::from((r + g + b) / 3.0);
+            sum += (r + g + b) / 3.0;
             max = max.max(r).max(g).max(b);
         }
     }
-    ((sum / (f64::from(image.width) * f64::from(image.height)).max(1.0)) as f32, max)
+    (sum / (f64::from(image.width) * f64::from(image.height)).max(1.0), max as f32)
 }
 
 fn glsl(shapes: &[Format]) -> String {

@@ -152,6 +152,8 @@ pub fn defines(
         flag("ENVIRONMENT_IMAGE", features.environment_image);
         flag("ROULETTE", scene.render.russian_roulette);
         flag("GEOMETRIC_VETO", scene.render.geometric_veto);
+        // Without an environment there is nothing to leave out: one variant less.
+        flag("TRANSPARENT_FILM", scene.film.transparent && features.environment);
         all.insert("LIGHT_KINDS".to_owned(), features.light_kinds.to_string());
     }
     if stage.traverses() {

@@ -21,6 +21,10 @@ pub fn key(scene: &Scene, prepared: &Prepared, stage: Stage, backend: Backend) -
 
 impl Kernels {
     /// Compiles all stages for a scene and makes their pipelines. Gives the texture code of the scene to `compiler`.
+    ///
+    /// # Errors
+    ///
+    /// When a kernel does not compile, or the driver refuses it.
     pub fn new(
         gpu: &Gpu,
         compiler: &mut Compiler,

@@ -139,6 +139,10 @@ fn threads_of(gpu: &Gpu) -> u32 {
 
 impl Renderer {
     /// Prepares a scene, compiles its kernels and puts it on the device: all the way from [`Scene`] in one step.
+    ///
+    /// # Errors
+    ///
+    /// As [`prepare::prepare`], [`Kernels::new`] and [`Self::new`].
     pub fn open(gpu: Arc<Gpu>, compiler: &mut Compiler, scene: &Scene, options: Options) -> Result<Self> {
         let mut prepared = prepare::prepare(scene)?;
         let kernels = Kernels::new(&gpu, compiler, scene, &prepared, options.backend)?;
@@ -146,6 +150,10 @@ impl Renderer {
     }
 
     /// Puts a scene on the device. `prepared` loses its large parts on the way.
+    ///
+    /// # Errors
+    ///
+    /// When the scene is larger than the memory or the buffers of the device.
     pub fn new(
         gpu: Arc<Gpu>,
         kernels: Kernels,
@@ -166,12 +174,11 @@ impl Renderer {
         Ok(Self { gpu, kernels, resident, frame, film_frame, slicing })
     }
 
-    /// Bytes of the scene on the device.
-    pub fn scene_bytes(&self) -> u64 {
-        self.resident.bytes()
-    }
-
     /// Renders samples `first_sample..first_sample + spp` of every pixel. `watch` is told after every slice.
+    ///
+    /// # Errors
+    ///
+    /// When host or device have no memory for film and waves, or the device fails.
     pub fn render(
         &self,
         first_sample: u32,
@@ -213,6 +220,10 @@ impl Renderer {
 
     /// Renders `spp` samples stage by stage, waiting after each. For measurements: the waiting makes it slower than
     /// [`Self::render`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::render`].
     pub fn measure(&self, spp: u32) -> Result<Measured> {
         let mut run = self.start(spp)?;
         let mut plan = Plan::new(run.tiles, run.band, 0, spp);

@@ -106,11 +106,6 @@ impl Plan {
         let first = tile / self.band * self.band;
         (first, self.band.min(self.tiles - first))
     }
-
-    /// Whether the whole picture is one band, which stays on the device until the end.
-    pub fn one_band(&self) -> bool {
-        self.band >= self.tiles
-    }
 }
 
 /// Samples of a pass: as many as fill a slice when the picture is small, at most [`MOST_PASS_SAMPLES`]; a few when it is

@@ -65,7 +65,8 @@ pub struct Film {
     pub exposure: f32,
     /// Bits a channel in a PNG: 8 or 16.
     pub png_bits: u32,
-    /// Write the coverage of the scene as alpha, with colour premultiplied in EXR and not in PNG.
+    /// Leave out the sky behind the scene and write the coverage as alpha, with colour premultiplied in EXR and not
+    /// in PNG.
     pub transparent: bool,
 }
 

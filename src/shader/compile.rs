@@ -84,6 +84,10 @@ impl fmt::Display for KernelKey {
 /// Compiles one kernel. A warning of the compiler is an error.
 ///
 /// May be called from several threads at once.
+///
+/// # Errors
+///
+/// When a file is missing or cannot be read, or glslang refuses the code: with file and line.
 pub fn compile(sources: &Sources, key: &KernelKey) -> Result<Spirv> {
     compile_with(&|name| sources.read(name), &|name| sources.is_virtual(name), key)
 }

@@ -57,6 +57,10 @@ pub struct Reflection {
 }
 
 /// Parses and validates a SPIR-V module of the storage-buffer variant and says what it expects.
+///
+/// # Errors
+///
+/// When naga cannot read the module or finds it invalid.
 pub fn reflect(words: &[u32]) -> Result<Reflection> {
     stack::run("naga", || {
         let (module, info) = parse(words)?;
@@ -65,6 +69,10 @@ pub fn reflect(words: &[u32]) -> Result<Reflection> {
 }
 
 /// Translates a SPIR-V module to WGSL, reads the WGSL back, validates it, and returns it.
+///
+/// # Errors
+///
+/// When naga cannot read the module, write it as WGSL, or read that again.
 pub fn translates_to_wgsl(words: &[u32]) -> Result<String> {
     stack::run("naga", || {
         let (module, info) = parse(words)?;

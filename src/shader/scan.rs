@@ -52,6 +52,10 @@ struct Module<'a> {
 
 /// The size of the workgroup and the resources that code uses. Functions that nothing calls count as code; glslang
 /// leaves them out.
+///
+/// # Errors
+///
+/// When the words are no SPIR-V, or are cut off.
 pub fn scan(words: &[u32]) -> Result<Scan> {
     let broken = || Error::device("the SPIR-V is damaged");
     if words.first() != Some(&SPIRV_MAGIC) {

@@ -34,7 +34,26 @@ impl Sources {
     }
 
     /// The files in a folder; a file that is missing there is taken from the embedded ones.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such folder, or none of its files stands for an embedded one: it would change nothing.
     pub fn folder(folder: &Path) -> Result<Self> {
+        let sources = Self::any_folder(folder)?;
+        let mut names = BTreeSet::new();
+        list_embedded(&EMBEDDED, &mut names);
+        let root = sources.folder.as_deref().unwrap_or(folder);
+        if names.iter().any(|name| root.join(name).exists()) {
+            return Ok(sources);
+        }
+        let example = names.first().map_or_else(String::new, |name| folder.join(name).display().to_string());
+        Err(Error::scene("no file in this folder has the name of a shader of dapple")
+            .in_file(folder)
+            .help(format!("give the folder that stands for `shaders/`, with a file such as {example}")))
+    }
+
+    /// As [`Self::folder`], with any files in it.
+    pub(super) fn any_folder(folder: &Path) -> Result<Self> {
         let root = folder.canonicalize().map_err(|e| {
             Error::scene(format!("cannot open the folder of shaders: {e}"))
                 .in_file(folder)
@@ -47,6 +66,10 @@ impl Sources {
     }
 
     /// Only the given files: name and text.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::set_virtual`].
     pub fn from_map<N: Into<String>, T: Into<String>>(
         files: impl IntoIterator<Item = (N, T)>,
     ) -> Result<Self> {
@@ -58,6 +81,10 @@ impl Sources {
     }
 
     /// Adds a virtual file, or replaces its text. It hides a file of the same name in the folder.
+    ///
+    /// # Errors
+    ///
+    /// When the name is no plain relative path.
     pub fn set_virtual(&mut self, name: impl Into<String>, text: impl Into<String>) -> Result<()> {
         let name = name.into();
         check_name(&name)?;
@@ -88,6 +115,10 @@ impl Sources {
     }
 
     /// The text of a file, without a byte order mark.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such file, it cannot be read or is no text, or its name is no plain relative path.
     pub fn read(&self, name: &str) -> Result<String> {
         check_name(name)?;
         let bytes = match self.virtual_files.get(name) {
@@ -258,7 +289,7 @@ mod tests {
         let own = folder.path().join("own");
         std::fs::create_dir(&own).unwrap();
         std::fs::write(own.join("a.glsl"), "folder").unwrap();
-        let mut sources = Sources::folder(folder.path()).unwrap();
+        let mut sources = Sources::any_folder(folder.path()).unwrap();
         assert_eq!(sources.read("own/a.glsl").unwrap(), "folder");
         assert!(!sources.is_virtual("own/a.glsl"));
         sources.read(&embedded).unwrap();
@@ -279,13 +310,26 @@ mod tests {
     }
 
     #[test]
+    fn a_folder_that_changes_nothing_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        // One level too high
+        let base = folder.path().join("shaders/base");
+        std::fs::create_dir_all(&base).unwrap();
+        std::fs::write(base.join("math.glsl"), "").unwrap();
+        let error = Sources::folder(folder.path()).unwrap_err();
+        assert_eq!(error.place.unwrap().file, folder.path());
+        assert!(error.help.unwrap().contains(&folder.path().join("base/").display().to_string()));
+        Sources::folder(&folder.path().join("shaders")).unwrap();
+    }
+
+    #[test]
     fn text_that_is_no_text_is_refused_with_its_line() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("latin.glsl"), b"a\nb\n\xe9").unwrap();
         std::fs::write(folder.path().join("zero.glsl"), b"a\n\0").unwrap();
         std::fs::write(folder.path().join("mark.glsl"), "\u{feff}a").unwrap();
         std::fs::write(folder.path().join("huge.glsl"), vec![b' '; 5 << 20]).unwrap();
-        let sources = Sources::folder(folder.path()).unwrap();
+        let sources = Sources::any_folder(folder.path()).unwrap();
         let text = |name: &str| sources.read(name).map_err(|e| e.to_string());
         assert_eq!(text("latin.glsl").unwrap_err(), "latin.glsl:3: the file is not text in UTF-8");
         assert_eq!(text("zero.glsl").unwrap_err(), "zero.glsl:2: there is a zero byte in the text");
@@ -303,7 +347,7 @@ mod tests {
         std::os::unix::fs::symlink(folder.path().join("gone"), folder.path().join("b.glsl")).unwrap();
         std::os::unix::fs::symlink(folder.path(), folder.path().join("loop")).unwrap();
         std::fs::write(folder.path().join("c.glsl"), "inside").unwrap();
-        let sources = Sources::folder(folder.path()).unwrap();
+        let sources = Sources::any_folder(folder.path()).unwrap();
         assert!(sources.read("a.glsl").unwrap_err().to_string().contains("link out of the folder"));
         assert!(sources.read("b.glsl").is_err());
         assert_eq!(sources.read("loop/c.glsl").unwrap(), "inside");

@@ -8,9 +8,13 @@ fn check_tells_what_is_in_a_scene() {
     let room = Room::new();
     let ran = room.run("check scene.toml").code(0);
     assert_eq!(ran.err, "");
-    for row in
-        ["film           16 x 12 pixels", "samples        8 a pixel", "triangles      2", "warnings       0"]
-    {
+    for row in [
+        "film           16 x 12 pixels",
+        "samples        8 a pixel",
+        "triangles      2",
+        "scene records",
+        "warnings       0",
+    ] {
         assert!(ran.out.contains(row), "no `{row}` in {}", ran.out);
     }
     let ran = room.run("check scene.toml --json --set film.size=[4,3]").code(0);
@@ -20,7 +24,7 @@ fn check_tells_what_is_in_a_scene() {
     // Quad, sphere, and the sphere of the light.
     assert_eq!(contents["shapes"], 3);
     assert_eq!((&contents["triangles"], &contents["lights"]), (&json!(2), &json!(1)));
-    assert!(contents["device_bytes"].as_u64().unwrap() > 0);
+    assert!(contents["scene_bytes"].as_u64().unwrap() > 0);
     assert_eq!(contents["warnings"], json!([]));
     assert_eq!(room.names(), ["scene.toml"]);
 }

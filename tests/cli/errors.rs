@@ -101,6 +101,10 @@ fn errors_in_shaders_name_the_file_of_the_user() {
     let room = Room::new();
     room.run("render scene.toml --shaders nowhere").code(2).err_has("cannot open the folder of shaders");
     std::fs::create_dir_all(room.path("mine/camera")).unwrap();
+    room.run("render scene.toml --shaders mine")
+        .code(2)
+        .err_has("error: mine: no file in this folder has the name of a shader of dapple")
+        .err_has("mine/base/fixed.glsl");
     room.write("mine/camera/thin_lens.glsl", "// first line\nfloat f() { return lens_u10; }\n");
     room.run("render scene.toml --shaders mine")
         .code(1)
@@ -112,11 +116,12 @@ fn errors_in_shaders_name_the_file_of_the_user() {
 #[test]
 fn a_device_that_is_not_there_is_told_with_those_that_are() {
     let room = Room::new();
+    room.run("bench --device nonsense").code(2).err_has("error: no device `nonsense`");
     room.run("render scene.toml --device nonsense")
-        .code(1)
+        .code(2)
         .err_has("error: no device `nonsense`")
         .err_has("there are 0: ");
-    room.run("render scene.toml --device 99").code(1).err_has("error: no device `99`");
+    room.run("render scene.toml --device 99").code(2).err_has("error: no device `99`");
     room.run("render scene.toml --device 0 --spp 1").code(0);
     let devices: serde_json::Value = serde_json::from_str(&room.run("devices --json").code(0).out).unwrap();
     let has_gpu =

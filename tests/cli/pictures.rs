@@ -103,6 +103,74 @@ fn word_values(ran: &Ran, key: &str) -> Vec<f32> {
     row.split_whitespace().skip(1).map(|word| word.parse().unwrap()).collect()
 }
 
+/// An orange ball that needs no light in front of a bright sky: edges, and pixels of one kind each.
+const BALL: &str = r#"
+[film]
+size = [16, 12]
+transparent = true
+filter = "gaussian"
+
+[camera]
+position = [0, 0, 5]
+target = [0, 0, 0]
+
+[material.ball]
+kind = "unlit"
+color = [0.5, 0.25, 0.125]
+
+[[shape]]
+kind = "sphere"
+radius = 1
+material = "ball"
+
+[environment]
+color = 20
+"#;
+
+#[test]
+fn a_transparent_film_has_no_sky_in_it() {
+    let room = Room::new();
+    room.write("ball.toml", BALL);
+    for name in ["ball.exr", "ball.png"] {
+        room.run(&format!("render ball.toml -o {name} --spp 16")).code(0);
+    }
+    let (exr, png) = (Planes::read(&room.path("ball.exr")), image::open(room.path("ball.png")).unwrap());
+    let png = png.as_rgba8().unwrap();
+    let mut kinds = [0; 3];
+    for (i, pixel) in png.pixels().enumerate() {
+        let (alpha, rgb) = (exr.plane("A")[i], exr.three(["R", "G", "B"], i));
+        // Premultiplied in the EXR
+        for (c, color) in [0.5, 0.25, 0.125].into_iter().enumerate() {
+            assert!((rgb[c] - alpha * color).abs() < 1e-6, "pixel {i}: {rgb:?} at alpha {alpha}");
+        }
+        // Straight in the PNG: the same colour wherever there is any. 0.5 is 188, 0.25 is 137, 0.125 is 99
+        let [r, g, b, a] = pixel.0;
+        assert_eq!(f32::from(a), (alpha * 255.0).round(), "pixel {i}");
+        assert_eq!([r, g, b], if alpha > 0.0 { [188, 137, 99] } else { [0; 3] }, "pixel {i}");
+        kinds[if alpha == 0.0 {
+            0
+        } else if alpha < 1.0 {
+            1
+        } else {
+            2
+        }] += 1;
+    }
+    assert!(kinds.iter().all(|&n| n >= 10), "sky, edges, ball: {kinds:?}");
+
+    // What the sky lights and what a mirror shows of it stays
+    let mirror = BALL
+        .replace("kind = \"unlit\"\ncolor = [0.5, 0.25, 0.125]", "kind = \"conductor\"\nfresnel = \"none\"");
+    room.write("ball.toml", &mirror);
+    room.run("render ball.toml -o ball.exr --spp 4").code(0);
+    let exr = Planes::read(&room.path("ball.exr"));
+    for (rgb, alpha) in exr.plane("G").iter().zip(exr.plane("A")) {
+        assert!((rgb - alpha * 18.0).abs() < 1e-4, "{rgb} at alpha {alpha}");
+    }
+    // An opaque film shows it everywhere
+    room.run("render ball.toml -o ball.exr --spp 4 --set film.transparent=false").code(0);
+    assert_eq!(Planes::read(&room.path("ball.exr")).plane("G")[0], 20.0);
+}
+
 #[test]
 fn settings_change_the_scene() {
     let room = Room::new();
@@ -163,4 +231,32 @@ fn samples_that_are_not_finite_are_counted() {
     let ran = room.run("render scene.toml --shaders shaders --json").code(0);
     assert_eq!(ran.event("done")["left_out"], 1536);
     assert!(ran.event("done")["stopped_by"].is_null());
+}
+
+#[test]
+fn the_first_pixel_that_is_not_finite_comes_with_its_command() {
+    let room = Room::new();
+    let sound = include_str!("../../shaders/stages/film.comp");
+    let line = "vec3 radiance = path.radiance * frame.radiance_scale;";
+    let broken = "vec3 radiance = path.radiance * frame.radiance_scale;
+        uvec2 at = slot_place(slot).pixel;
+        if (at == uvec2(5u, 7u) || at == uvec2(2u, 9u)) radiance.y = uintBitsToFloat(0x7fc00000u);";
+    assert!(sound.contains(line), "the film kernel has changed: choose another line to break");
+    std::fs::create_dir_all(room.path("shaders/stages")).unwrap();
+    room.write("shaders/stages/film.comp", &sound.replace(line, broken));
+    let arguments = "render scene.toml --shaders shaders --crop 1,2,15,12 --first-sample 3 -o a.png";
+    let repeat = "dapple render scene.toml --shaders shaders --pixel 5,7 --first-sample 3";
+    let ran = room.run(arguments).code(0);
+    let ran =
+        ran.err_has("16 of 1120 samples were not finite and are left out, the first of them in pixel 5,7");
+    ran.err_has(&format!("repeat with: {repeat}\n"));
+    assert_eq!(
+        room.run(&format!("{arguments} --json")).code(0).event("done")["repeat"],
+        repeat.replace("--shaders shaders", "--shaders shaders --json")
+    );
+    // The command does what it says, and writes no picture
+    std::fs::remove_file(room.path("a.png")).unwrap();
+    room.run(repeat.strip_prefix("dapple ").unwrap()).code(0).err_has("8 of 8 samples were not finite");
+    assert_eq!(room.names(), ["scene.toml", "shaders"]);
+    assert!(room.run("render scene.toml --json").code(0).event("done")["repeat"].is_null());
 }

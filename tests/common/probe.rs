@@ -32,7 +32,7 @@ impl Probe {
     pub fn new() -> &'static Self {
         static SHARED: OnceLock<Probe> = OnceLock::new();
         SHARED.get_or_init(|| {
-            let validation = std::env::var_os("DAPPLE_VALIDATION").is_some_and(|v| !v.is_empty() && v != "0");
+            let validation = dapple::gpu::validation_from_environment();
             let choice = DeviceChoice { validation, ..DeviceChoice::default() };
             let gpu = Arc::new(Gpu::open(&choice).unwrap_or_else(|error| panic!("{error}")));
             Probe { gpu, kernels: Mutex::default() }

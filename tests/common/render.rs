@@ -22,7 +22,7 @@ use glam::{Affine3A, DVec3, Mat3, Vec3};
 pub fn gpu() -> Arc<Gpu> {
     static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
     GPU.get_or_init(|| {
-        let validation = std::env::var_os("DAPPLE_VALIDATION").is_some_and(|v| !v.is_empty() && v != "0");
+        let validation = dapple::gpu::validation_from_environment();
         Arc::new(Gpu::open(&DeviceChoice { validation, ..DeviceChoice::default() }).unwrap())
     })
     .clone()

@@ -13,4 +13,5 @@ mod camera;
 mod geometry;
 mod light;
 mod paths;
+mod planes;
 mod texture;

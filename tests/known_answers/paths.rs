@@ -154,6 +154,68 @@ fn a_ball_inside_absorbing_glass() {
 }
 
 #[test]
+fn a_lamp_inside_glass_is_absorbed_on_its_way_to_a_surface_there() {
+    // A ball of glass of radius 2 that bends nothing; in its middle a white disk towards the camera, and a lamp beside
+    let absorption = [0.2_f64, 0.5, 1.0];
+    let inside = |lamp: &dyn Fn(&mut Scene)| {
+        let mut s = scene(4, 4, 1024);
+        s.camera = look(Vec3::Z * 6.0, Vec3::ZERO, 0.02);
+        s.render.max_depth = 2;
+        let m = s.glass(1.0, 0.0, Vec3::new(0.2, 0.5, 1.0), false);
+        s.sphere(Vec3::ZERO, 2.0, m);
+        let white = s.diffuse(1.0);
+        s.disk(Vec3::ZERO, Vec3::Z, 0.3, white);
+        lamp(&mut s);
+        mean(&render(&s))
+    };
+    let at = Vec3::new(0.9, 0.2, 1.2);
+    let (d, cos) = (f64::from(at.length()), f64::from(at.normalize().z));
+    let expected = absorption.map(|a| (-a * (2.0 + d)).exp() * 5.0 * cos / (d * d * std::f64::consts::PI));
+    expect_mean(inside(&|s| s.lights.push(point(at, 5.0))), expected, 1e-4);
+
+    // A lamp that both strategies find
+    let (origin, u, v) = (Vec3::new(0.3, -0.5, 1.0), Vec3::Y, Vec3::X * 0.8);
+    let expected = absorption.map(|a| {
+        let seen = integrate_square(400, |x, y| {
+            let p = (origin + u * x as f32 + v * y as f32).as_dvec3();
+            let cos = p.normalize().z;
+            cos * cos / p.length_squared() * (-a * (2.0 + p.length())).exp()
+        });
+        2.0 * 0.8 * seen / std::f64::consts::PI
+    });
+    let quad = |s: &mut Scene| {
+        let lamp = s.emitter(grey(2.0), false);
+        s.quad(origin, u, v, lamp);
+    };
+    expect_mean(inside(&quad), expected, 1e-3);
+}
+
+#[test]
+fn a_rough_boundary_absorbs_on_its_inner_side_only() {
+    // A small lamp on one side of rough glass, the camera on the other; the way inside the glass has one length
+    let across = |lamp_inside: bool, absorption: f32| {
+        let mut s = scene(4, 4, 4096);
+        s.render.max_depth = 1;
+        let side = if lamp_inside { 1.0 } else { -1.0 };
+        s.camera = look(Vec3::new(0.3, 1.5 * side, 0.1), Vec3::ZERO, 0.02);
+        let m = s.glass(1.5, 0.5, Vec3::splat(absorption), false);
+        s.floor(m);
+        let lamp = s.emitter(grey(100.0), false);
+        s.sphere(Vec3::new(0.2, -2.0 * side, 0.0), 0.02, lamp);
+        mean(&render(&s))
+    };
+    let (from_lamp, from_camera) = (4.04_f64.sqrt(), 2.35_f64.sqrt());
+    for (lamp_inside, inside) in [(true, from_lamp), (false, from_camera)] {
+        let clear = across(lamp_inside, 0.0);
+        assert!(clear.mean[0] > 1e-3, "{clear:?}");
+        let faded = |x: f64| x * (-0.6 * inside).exp();
+        let expected = Measured { mean: clear.mean.map(faded), error: clear.error.map(faded) };
+        // The lamp is 1 % as large as its distance
+        expect_same(across(lamp_inside, 0.6), expected, 0.01);
+    }
+}
+
+#[test]
 fn rough_glass_loses_little_and_makes_nothing() {
     // Radiance in a white room: a rough boundary of single scattering sends on less than 1, and not much less at α = 0.1.
     // White on both sides, where the far side counts 1/η² of its radiance.

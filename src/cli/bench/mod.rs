@@ -8,7 +8,7 @@ mod write;
 
 use super::args::{BenchArgs, Fetch};
 use super::console::Console;
-use dapple::gpu::{DeviceChoice, Gpu};
+use dapple::gpu::{DeviceChoice, Gpu, validation_from_environment};
 use dapple::import::read_scene;
 use dapple::layout::Backend;
 use dapple::prepare::{self, Stage};
@@ -56,8 +56,11 @@ pub fn run(args: &BenchArgs, console: &mut Console) -> Result<()> {
     if let Some(folder) = &args.write_scene {
         return write::write(folder);
     }
-    let choice =
-        DeviceChoice { wanted: args.device.clone(), require_gpu: args.require_gpu, validation: false };
+    let choice = DeviceChoice {
+        wanted: args.device.clone(),
+        require_gpu: args.require_gpu,
+        validation: validation_from_environment(),
+    };
     let gpu = Arc::new(Gpu::open(&choice)?);
     let options = Options {
         backend: match args.fetch {
