@@ -30,7 +30,7 @@ fn hits(cases: &[Case]) -> Vec<(bool, [f64; 3])> {
             vec3 d = uintBitsToFloat(fetch_points(5u * i + 4u).xyz);
             float t;
             vec2 bary;
-            bool hit = triangle_hit(a, b, c, o, d, FAR, t, bary);
+            bool hit = triangle_hit(a, b, c, triangle_ray(o, d), FAR, t, bary);
             store_values(i, uvec4(hit ? 1u : 0u, floatBitsToUint(t), floatBitsToUint(bary)));
         }";
     let mut inputs: Vec<Word> = Vec::with_capacity(5 * cases.len());
@@ -152,7 +152,7 @@ fn misses(vertices: &[Point], triangles: &[[usize; 3]], rays: &[(Point, Point)],
                 uint at = 2u * frame.point_count + 3u * (first + k);
                 float t;
                 vec2 bary;
-                if (triangle_hit(corner(at), corner(at + 1u), corner(at + 2u), o, d, FAR, t, bary)) found += 1u;
+                if (triangle_hit(corner(at), corner(at + 1u), corner(at + 2u), triangle_ray(o, d), FAR, t, bary)) found += 1u;
             }}
             store_values(i, uvec4(found));
         }}"

@@ -137,7 +137,9 @@ impl Buffer {
     /// As [`Self::write`], one part after the other.
     fn write_parts(&self, parts: &[&[u8]]) -> bool {
         let mut allocation = self.allocation();
-        let Some(mut memory) = allocation.as_mut().and_then(Allocation::mapped_slice_mut) else { return false };
+        let Some(mut memory) = allocation.as_mut().and_then(Allocation::mapped_slice_mut) else {
+            return false;
+        };
         for part in parts {
             let Some((target, rest)) = memory.split_at_mut_checked(part.len()) else { return false };
             target.copy_from_slice(part);

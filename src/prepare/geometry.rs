@@ -397,3 +397,7 @@ fn widened(bounds: Bounds) -> Bounds {
     let margin = (bounds.min.abs().max(bounds.max.abs())) * 4.0 * f32::EPSILON;
     Bounds { min: bounds.min - margin, max: bounds.max + margin }
 }
+
+#[cfg(test)]
+#[path = "geometry_tests.rs"]
+mod tests;

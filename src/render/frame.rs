@@ -57,9 +57,9 @@ pub(super) fn of_scene(scene: &Scene, prepared: &Prepared, threads: u32) -> Fram
     frame
 }
 
-/// Steps of a ray in one dispatch. Mesa before 25.0 leaves all loops of a subgroup after 65,535 rounds; a step is at most
-/// three rounds of a loop, and the lanes of a subgroup take turns at worst in two of them.
-const STEP_LIMIT: u32 = 12_000;
+/// Steps of a ray in one dispatch. Mesa before 25.0 leaves all loops of a subgroup after 65,535 rounds: at worst the up to
+/// 16 lanes of a subgroup take turns in the inner loop of a traversal, and its outer loop takes as many rounds as one lane.
+const STEP_LIMIT: u32 = 65_000 / 17;
 
 /// The block of a slice.
 pub(super) fn of_slice(scene: &Frame, slice: &Slice, band: (u32, u32)) -> Frame {

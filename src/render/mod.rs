@@ -116,7 +116,7 @@ impl Slicing {
     /// What suits a device.
     pub fn of(gpu: &Gpu) -> Self {
         if gpu.info().kind == DeviceType::Cpu {
-            Self { slots: std::env::var("DAPPLE_SLOTS").ok().and_then(|v| v.parse().ok()).unwrap_or(1 << 16), budget: Duration::from_millis(60) }
+            Self { slots: 1 << 16, budget: Duration::from_millis(60) }
         } else {
             Self { slots: 1 << 20, budget: Duration::from_millis(60) }
         }

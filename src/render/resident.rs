@@ -14,7 +14,8 @@ impl Resident {
     /// Puts a prepared scene on the device. It is taken apart on the way, so that host and device do not both hold it.
     pub fn upload(gpu: &Gpu, prepared: &mut Prepared) -> Result<Self> {
         let mut buffers = Vec::new();
-        let (nodes, triangles) = (std::mem::take(&mut prepared.nodes), std::mem::take(&mut prepared.triangles));
+        let (nodes, triangles) =
+            (std::mem::take(&mut prepared.nodes), std::mem::take(&mut prepared.triangles));
         if nodes.len() + triangles.len() > 0 {
             let parts = [bytemuck::cast_slice(&nodes), bytemuck::cast_slice(&triangles)];
             buffers.push(("tree", gpu.upload("tree", &parts)?));

@@ -1,0 +1,63 @@
+//! The stack that `prepare` promises is enough for every way through the trees.
+
+use super::super::{Prepared, prepare};
+use crate::layout::{LEAF, LEAF_FIRST_MASK, LEAF_INSTANCE, NONE};
+use crate::scene::{Instance, Material, Mesh, Scene, Surface, Value};
+use glam::{Affine3A, Vec3};
+use proptest::prelude::*;
+
+/// Most entries, with `kept` on the stack, that `geometry/traverse.glsl` writes below a reference.
+fn written(prepared: &Prepared, reference: u32, kept: u32) -> u32 {
+    if reference == NONE || reference & LEAF != 0 && reference & LEAF_INSTANCE == 0 {
+        // A step on a triangle writes one entry that it does not keep
+        return kept + 1;
+    }
+    if reference & LEAF_INSTANCE != 0 && reference & LEAF != 0 {
+        let instance = &prepared.instances[(reference & LEAF_FIRST_MASK) as usize];
+        return if instance.root == NONE { kept } else { written(prepared, instance.root, kept + 1) };
+    }
+    let node = &prepared.nodes[reference as usize];
+    written(prepared, node.child0, kept + 1).max(written(prepared, node.child1, kept + 1))
+}
+
+/// `copies` instances of a mesh of `triangles` triangles, and with `soup` a mesh that is placed once.
+fn scene(triangles: u32, copies: u32, soup: bool) -> Scene {
+    let mut scene = Scene::default();
+    let surface = Surface::Diffuse { color: Value::Constant(Vec3::splat(0.5)) };
+    let material = scene.materials.add("grey", Material { surface, emission: None });
+    let mesh = |count: u32| Mesh {
+        positions: (0..count)
+            .flat_map(|i| {
+                let p = Vec3::new((i % 7) as f32, (i / 7) as f32, (i % 3) as f32);
+                [p, p + 0.4 * Vec3::X, p + 0.4 * Vec3::Y]
+            })
+            .collect(),
+        triangles: (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        ..Mesh::default()
+    };
+    let shared = scene.meshes.add("shared", mesh(triangles));
+    for i in 0..copies {
+        // Each is as far again as all before: the tree over them is as deep as it can be
+        let world_from_object = Affine3A::from_translation(Vec3::X * 1.5_f32.powi(i as i32));
+        scene.instances.push(Instance { name: String::new(), mesh: shared, material, world_from_object });
+    }
+    if soup {
+        let once = scene.meshes.add("once", mesh(5));
+        scene.instances.push(Instance {
+            name: String::new(),
+            mesh: once,
+            material,
+            world_from_object: Affine3A::IDENTITY,
+        });
+    }
+    scene
+}
+
+proptest! {
+    #[test]
+    fn the_stack_holds_what_traversal_writes(triangles in 1..60_u32, copies in 1..60_u32, soup: bool) {
+        let prepared = prepare(&scene(triangles, copies, soup))?;
+        let most = written(&prepared, prepared.root, 1);
+        prop_assert!(most <= prepared.stack_entries, "{most} entries, {} promised", prepared.stack_entries);
+    }
+}
