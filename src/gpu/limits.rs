@@ -92,16 +92,16 @@ mod tests {
     #[test]
     fn what_is_only_read_may_be_as_long_as_a_texel_buffer() {
         let whole = 131_072 * 16;
-        check_buffer(&SMALL, "toy", "triangles", whole).unwrap();
-        let error = check_buffer(&SMALL, "toy", "triangles", whole + 16).unwrap_err();
+        check_buffer(&SMALL, "toy", "tree", whole).unwrap();
+        let error = check_buffer(&SMALL, "toy", "tree", whole + 16).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "`triangles` takes 2097168 bytes, but maxTexelBufferElements of device `toy` allows 2097152; use fewer \
+            "`tree` takes 2097168 bytes, but maxTexelBufferElements of device `toy` allows 2097152; use fewer \
              or smaller meshes, textures and pictures, or another --device"
         );
         // A device whose storage buffers are the longer ones
         let storage = Limits { storage_buffer_bytes: 1 << 32, ..SMALL };
-        check_buffer(&storage, "toy", "triangles", whole + 16).unwrap();
+        check_buffer(&storage, "toy", "tree", whole + 16).unwrap();
     }
 
     #[test]

@@ -3,8 +3,9 @@
 //! What is placed once goes into one tree in world space (the soup); a mesh that is placed several times gets a tree of
 //! its own. A tree over instances stands above them, unless the soup is all there is.
 
+use super::Prepared;
+use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
-use super::{Bounds, Prepared};
 use crate::layout::{
     INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
     LEAF_INSTANCE, NONE, Triangle, Vertex,
@@ -349,53 +350,6 @@ fn world_from_object(instance: &Instance) -> Affine3A {
     let linear =
         Mat3A::from_cols(rows[0].truncate().into(), rows[1].truncate().into(), rows[2].truncate().into());
     Affine3A { matrix3: linear.transpose(), translation: Vec3::new(rows[0].w, rows[1].w, rows[2].w).into() }
-}
-
-fn triangle_bounds(t: &Triangle) -> Bounds {
-    let mut bounds = Bounds::default();
-    for p in [t.a, t.b, t.c] {
-        bounds.add(p.into());
-    }
-    bounds
-}
-
-fn bounds_of(triangles: &[Triangle]) -> Bounds {
-    triangles.iter().map(triangle_bounds).fold(Bounds::default(), |mut all, b| {
-        all.add(b.min);
-        all.add(b.max);
-        all
-    })
-}
-
-fn transformed(bounds: &Bounds, map: &Affine3A) -> Bounds {
-    let mut out = Bounds::default();
-    for i in 0..8 {
-        let pick = |bit: u32, axis: usize| if i & bit == 0 { bounds.min[axis] } else { bounds.max[axis] };
-        out.add(map.transform_point3(Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2))));
-    }
-    widened(out)
-}
-
-/// Half-extent of a mapped unit sphere along an axis is the length of that row of the matrix.
-fn ellipsoid_bounds(map: &Affine3A) -> Bounds {
-    let rows = map.matrix3.transpose();
-    let half = Vec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length());
-    let center = Vec3::from(map.translation);
-    widened(Bounds { min: center - half, max: center + half })
-}
-
-fn disk_bounds(map: &Affine3A) -> Bounds {
-    let rows = map.matrix3.transpose();
-    let length = |row: glam::Vec3A| row.truncate().length();
-    let half = Vec3::new(length(rows.x_axis), length(rows.y_axis), length(rows.z_axis));
-    let center = Vec3::from(map.translation);
-    widened(Bounds { min: center - half, max: center + half })
-}
-
-/// A little more, for the rounding of the map.
-fn widened(bounds: Bounds) -> Bounds {
-    let margin = (bounds.min.abs().max(bounds.max.abs())) * 4.0 * f32::EPSILON;
-    Bounds { min: bounds.min - margin, max: bounds.max + margin }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 
 mod alias;
 mod atlas;
+mod bounds;
 pub mod bvh;
 mod environment;
 mod geometry;
@@ -12,6 +13,7 @@ mod materials;
 mod textures;
 mod variant;
 
+pub use bounds::Bounds;
 pub(crate) use environment::rows as environment_rows;
 pub use variant::{Stage, defines, stack_size};
 
@@ -95,34 +97,6 @@ pub struct Seconds(pub f64);
 impl PartialEq for Seconds {
     fn eq(&self, _: &Self) -> bool {
         true
-    }
-}
-
-/// An axis-aligned box.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds {
-    /// Least corner.
-    pub min: Vec3,
-    /// Greatest corner.
-    pub max: Vec3,
-}
-
-impl Default for Bounds {
-    fn default() -> Self {
-        Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY }
-    }
-}
-
-impl Bounds {
-    /// Grows the box to hold a point.
-    pub fn add(&mut self, p: Vec3) {
-        self.min = self.min.min(p);
-        self.max = self.max.max(p);
-    }
-
-    /// Length of the diagonal; 0 when the box is empty.
-    pub fn diagonal(&self) -> f32 {
-        if self.min.x <= self.max.x { (self.max - self.min).length() } else { 0.0 }
     }
 }
 
