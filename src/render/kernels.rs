@@ -33,7 +33,7 @@ impl Kernels {
         let mut pipelines = Vec::new();
         for stage in Stage::ALL {
             let spirv = compiler.kernel(&key(scene, prepared, stage, backend))?;
-            pipelines.push((stage, gpu.pipeline(stage.file(), &layout, &spirv.words)?));
+            pipelines.push((stage, gpu.pipeline(&layout, &spirv)?));
         }
         Ok(Self { layout, pipelines })
     }
