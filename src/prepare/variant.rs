@@ -7,7 +7,7 @@ use crate::layout::{
 use crate::scene::{FilterKind, Sampler, Scene};
 use std::collections::BTreeMap;
 
-/// The kernels of a wave.
+/// The kernels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
     /// First rays.
@@ -27,9 +27,12 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// All stages.
+    /// All stages; those of a wave come first, in the order of the enum.
     pub const ALL: [Self; 7] =
         [Self::Camera, Self::Intersect, Self::Shade, Self::Shadow, Self::Advance, Self::Film, Self::Evaluate];
+    /// The stages that paths go through.
+    pub const WAVE: [Self; 6] =
+        [Self::Camera, Self::Intersect, Self::Shade, Self::Shadow, Self::Advance, Self::Film];
 
     /// Its name: that of its file.
     pub fn name(self) -> &'static str {

@@ -76,8 +76,8 @@ impl Rays {
 /// What the stages of a render took.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Measured {
-    /// Seconds of each stage, in the order of [`Stage::ALL`].
-    pub seconds: [f64; Stage::ALL.len()],
+    /// Seconds of each stage, in the order of [`Stage::WAVE`].
+    pub seconds: [f64; Stage::WAVE.len()],
     /// First rays of the paths.
     pub camera: Rays,
     /// Their other rays.

@@ -159,7 +159,7 @@ fn measure(name: &str, scene: &Scene, gpu: &Arc<Gpu>, options: Options, args: &B
         camera_mrays_per_second: stages.camera.mega_per_second(),
         bounce_mrays_per_second: stages.bounce.mega_per_second(),
         shadow_mrays_per_second: stages.shadow.mega_per_second(),
-        stage_seconds: Stage::ALL.iter().map(|stage| stage.name()).zip(stages.seconds).collect(),
+        stage_seconds: Stage::WAVE.iter().map(|stage| stage.name()).zip(stages.seconds).collect(),
         bvh_mtriangles_per_second: if bvh_seconds > 0.0 { triangles as f64 / bvh_seconds / 1e6 } else { 0.0 },
         bvh_sah_cost: cost,
         compile_cold_seconds: cold,
