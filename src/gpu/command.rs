@@ -96,7 +96,7 @@ const FOREIGN: &str = "a buffer is of another device";
 /// What is wrong with three sizes of a dispatch at an offset in a buffer.
 fn sizes_fault(offset: u64, bytes: u64) -> Option<&'static str> {
     let inside = offset.checked_add(12).is_some_and(|end| end <= bytes);
-    (!inside || offset % 4 != 0).then_some("the sizes of a dispatch are not in their buffer")
+    (!inside || !offset.is_multiple_of(4)).then_some("the sizes of a dispatch are not in their buffer")
 }
 
 fn check_groups(groups: u32, limit: u32, device: &str) -> Result<()> {

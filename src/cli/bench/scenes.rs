@@ -7,9 +7,11 @@ use dapple::scene::{
 };
 use glam::{Affine3A, Mat3, Quat, Vec3};
 
-/// All scenes: name, and how to make it.
-pub(super) const ALL: [(&str, fn() -> Scene); 3] =
-    [("blob", blob_scene), ("glass", glass_scene), ("forest", forest_scene)];
+/// Name of a scene, and how to make it.
+type Named = (&'static str, fn() -> Scene);
+
+/// All scenes.
+pub(super) const ALL: [Named; 3] = [("blob", blob_scene), ("glass", glass_scene), ("forest", forest_scene)];
 
 /// One large flat mesh over a ground under a square light and a constant sky, diffuse, five events a path: the scene
 /// that `--write-scene` writes.
