@@ -21,7 +21,7 @@ const RUST_ROOMS: &[(&str, &[&str])] = &[
     ("import", &["scene"]),
     ("prepare", &["scene", "layout"]),
     ("shader", &[]),
-    ("gpu", &["layout"]),
+    ("gpu", &["layout", "shader"]),
     ("film", &["scene"]),
     ("render", &["prepare", "shader", "gpu", "film", "layout", "scene"]),
     // The program: its own modules, and the public items of the library as `dapple::`.

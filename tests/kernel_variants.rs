@@ -196,7 +196,7 @@ fn kernels(backend: Backend) -> Vec<(String, Spirv)> {
         for stage in Stage::ALL {
             let key = render::key(&scene, &prepared, stage, backend);
             let spirv = compiler.kernel(&key).unwrap_or_else(|e| panic!("{name}: {key}: {e}"));
-            found.insert(spirv.words.clone(), (format!("{name}: {key}"), spirv));
+            found.insert(spirv.words().to_vec(), (format!("{name}: {key}"), spirv));
         }
     }
     let kernels: Vec<_> = found.into_values().collect();
@@ -237,7 +237,7 @@ fn check_bindings(
 fn storage_kernels_are_portable_and_keep_to_the_table() {
     for (name, spirv) in kernels(Backend::Storage) {
         let Reflection { local_size, bindings } =
-            reflect(&spirv.words).unwrap_or_else(|e| panic!("{name}: {e}"));
+            reflect(spirv.words()).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(local_size, [WORKGROUP, 1, 1], "{name}");
         let used = bindings.iter().map(|b| (b.set, b.binding, b.class));
         assert!(check_bindings(&name, used, Backend::Storage) > 0, "{name}");
@@ -253,8 +253,8 @@ fn storage_kernels_are_portable_and_keep_to_the_table() {
                 assert_eq!(binding.size, Some(size_of::<dapple::layout::Frame>() as u32), "{name}");
             }
         }
-        translates_to_wgsl(&spirv.words).unwrap_or_else(|e| panic!("{name}: {e}"));
-        let scanned = scan(&spirv.words).unwrap();
+        translates_to_wgsl(spirv.words()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let scanned = scan(spirv.words()).unwrap();
         assert_eq!(scanned.local_size, local_size, "{name}");
         let reflected: BTreeMap<_, _> = bindings.iter().map(|b| ((b.set, b.binding), b.class)).collect();
         assert_eq!(scanned.bindings, reflected, "{name}");
@@ -265,7 +265,7 @@ fn storage_kernels_are_portable_and_keep_to_the_table() {
 fn texel_kernels_keep_to_the_table() {
     let mut views = 0;
     for (name, spirv) in kernels(Backend::Texel) {
-        let scanned = scan(&spirv.words).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let scanned = scan(spirv.words()).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(scanned.local_size, [WORKGROUP, 1, 1], "{name}");
         let used = scanned.bindings.iter().map(|((set, binding), class)| (*set, *binding, *class));
         assert!(check_bindings(&name, used, Backend::Texel) > 0, "{name}");
@@ -286,7 +286,7 @@ fn spirv_val_accepts_every_kernel() {
     for backend in [Backend::Storage, Backend::Texel] {
         for (name, spirv) in kernels(backend) {
             let mut file = tempfile::NamedTempFile::new().unwrap();
-            file.write_all(bytemuck::cast_slice(&spirv.words)).unwrap();
+            file.write_all(bytemuck::cast_slice(spirv.words())).unwrap();
             let output = std::process::Command::new("spirv-val")
                 .args(["--target-env", "vulkan1.2"])
                 .arg(file.path())

@@ -35,6 +35,7 @@ impl Gpu {
     /// bindings tells how the buffer will be bound.
     ///
     /// # Errors
+    ///
     /// When it is too long to be bound, or the device has no memory left for it. Both are known before memory is taken.
     pub fn buffer(&self, name: &str, bytes: u64, place: Place) -> Result<Arc<Buffer>> {
         let bytes = bytes.max(WORD_BYTES).checked_next_multiple_of(WORD_BYTES).unwrap_or(u64::MAX);
@@ -97,6 +98,7 @@ impl Gpu {
     /// Makes a buffer on the device that holds `words`; at least one word long.
     ///
     /// # Errors
+    ///
     /// As [`Gpu::buffer`], or when copying fails.
     pub fn upload(&self, name: &str, parts: &[&[u8]]) -> Result<Arc<Buffer>> {
         let bytes = parts.iter().map(|part| part.len() as u64).sum();
@@ -119,6 +121,11 @@ impl Buffer {
         self.bytes
     }
 
+    /// Whether the buffer was made by a device.
+    pub(super) fn is_of(&self, device: &Arc<Inner>) -> bool {
+        Arc::ptr_eq(&self.inner, device)
+    }
+
     fn allocation(&self) -> MutexGuard<'_, Option<Allocation>> {
         self.allocation.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -129,13 +136,17 @@ impl Buffer {
         self.allocation().as_ref().and_then(Allocation::mapped_ptr).map(|start| start.as_ptr() as usize)
     }
 
-    /// Writes to the start of the buffer; false when the host does not see it. The device must not be using it.
+    /// Writes to the start of the buffer; false when the host does not see it, or it is shorter. The device must not be
+    /// using it.
     pub fn write(&self, bytes: &[u8]) -> bool {
         self.write_parts(&[bytes])
     }
 
     /// As [`Self::write`], one part after the other.
     fn write_parts(&self, parts: &[&[u8]]) -> bool {
+        if parts.iter().map(|part| part.len() as u64).sum::<u64>() > self.bytes {
+            return false;
+        }
         let mut allocation = self.allocation();
         let Some(mut memory) = allocation.as_mut().and_then(Allocation::mapped_slice_mut) else {
             return false;
@@ -148,8 +159,15 @@ impl Buffer {
         true
     }
 
-    /// Looks at the first `bytes` bytes; an error when the host does not see them. The device must not be writing.
+    /// Looks at the first `bytes` bytes. The device must not be writing.
+    ///
+    /// # Errors
+    ///
+    /// When there are fewer, they are no whole number of `u32`, or the host does not see them.
     pub fn read<T>(&self, bytes: u64, look: impl FnOnce(&[u32]) -> T) -> Result<T> {
+        if bytes > self.bytes || !bytes.is_multiple_of(4) {
+            return Err(Error::device(format!("{bytes} bytes of a buffer of {} cannot be read", self.bytes)));
+        }
         let allocation = self.allocation();
         let mapped = allocation.as_ref().and_then(Allocation::mapped_slice);
         let part = mapped.and_then(|memory| memory.get(..usize::try_from(bytes).ok()?));

@@ -52,6 +52,36 @@ pub enum Command<'a> {
 }
 
 impl Command<'_> {
+    /// What the device could not do without harm is an error.
+    fn check(&self, gpu: &Gpu) -> Result<()> {
+        let own = |buffer: &Buffer| buffer.is_of(&gpu.inner);
+        let fits = |pipeline: &Pipeline, bindings: &Bindings| {
+            pipeline.layout.is_of(&gpu.inner) && bindings.fits(&pipeline.layout)
+        };
+        let fault = match self {
+            Command::Fill { bytes, .. } if bytes % 4 != 0 => Some("a fill is no whole number of words"),
+            Command::Fill { buffer, .. } if !own(buffer) => Some(FOREIGN),
+            Command::Copy { from, to, .. } if !own(from) || !own(to) => Some(FOREIGN),
+            Command::Dispatch { pipeline, bindings, .. }
+            | Command::DispatchIndirect { pipeline, bindings, .. }
+                if !fits(pipeline, bindings) =>
+            {
+                Some("kernel and bindings are of two back ends or devices")
+            }
+            Command::DispatchIndirect { sizes, .. } if !own(sizes) => Some(FOREIGN),
+            Command::DispatchIndirect { sizes, offset, .. } => sizes_fault(*offset, sizes.bytes()),
+            Command::Dispatch { groups, .. } => {
+                return check_groups(
+                    groups[0].max(groups[1]),
+                    gpu.inner.info.limits.workgroups,
+                    &gpu.inner.info.name,
+                );
+            }
+            _ => None,
+        };
+        fault.map_or(Ok(()), |fault| Err(Error::device(fault)))
+    }
+
     fn uses(&self) -> Vec<Arc<dyn Any + Send + Sync>> {
         match self {
             Command::Fill { buffer, .. } => vec![(*buffer).clone()],
@@ -63,6 +93,22 @@ impl Command<'_> {
             Command::Barrier => Vec::new(),
         }
     }
+}
+
+const FOREIGN: &str = "a buffer is of another device";
+
+/// What is wrong with three sizes of a dispatch at an offset in a buffer.
+fn sizes_fault(offset: u64, bytes: u64) -> Option<&'static str> {
+    let inside = offset.checked_add(12).is_some_and(|end| end <= bytes);
+    (!inside || !offset.is_multiple_of(4)).then_some("the sizes of a dispatch are not in their buffer")
+}
+
+fn check_groups(groups: u32, limit: u32, device: &str) -> Result<()> {
+    if groups <= limit {
+        return Ok(());
+    }
+    Err(Error::device(format!("a dispatch has {groups} workgroups, device `{device}` allows {limit}"))
+        .help("render fewer samples or pixels at once, or choose another --device"))
 }
 
 /// Work that was submitted. It keeps what the work uses; dropping it waits for the work.
@@ -77,7 +123,12 @@ pub struct Ticket {
 
 impl Gpu {
     /// Records and submits commands.
+    ///
+    /// # Errors
+    ///
+    /// When a command names what is of another device or reaches beyond a buffer or a limit, or the device fails.
     pub fn submit(&self, commands: &[Command<'_>]) -> Result<Ticket> {
+        commands.iter().try_for_each(|command| command.check(self))?;
         let device = &self.inner.device;
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(self.inner.queue_family);
         // SAFETY: the device is alive; the pool is destroyed by the ticket.
@@ -103,6 +154,10 @@ impl Gpu {
     }
 
     /// Submits commands and waits for them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Gpu::submit`] and [`Ticket::wait`].
     pub fn run(&self, commands: &[Command<'_>]) -> Result<()> {
         self.submit(commands)?.wait()
     }
@@ -121,7 +176,8 @@ fn record(
     // SAFETY: the buffer is new.
     check(unsafe { device.begin_command_buffer(buffer, &begin) }, "begin recording")?;
     for command in commands {
-        // SAFETY: the buffer is recording, and everything a command names is alive and of this device.
+        // SAFETY: the buffer is recording; what a command names is alive, and `Command::check` has seen that it is of this
+        // device.
         unsafe { record_one(device, buffer, command) };
     }
     // SAFETY: the buffer is recording.
@@ -141,11 +197,17 @@ unsafe fn record_one(device: &ash::Device, buffer: vk::CommandBuffer, command: &
         };
         match command {
             Command::Fill { buffer: target, bytes, value } => {
-                device.cmd_fill_buffer(buffer, target.raw, 0, (*bytes).min(target.bytes()), *value);
+                let bytes = (*bytes).min(target.bytes());
+                if bytes > 0 {
+                    device.cmd_fill_buffer(buffer, target.raw, 0, bytes, *value);
+                }
             }
             Command::Copy { from, to, bytes } => {
-                let region = vk::BufferCopy::default().size((*bytes).min(from.bytes()).min(to.bytes()));
-                device.cmd_copy_buffer(buffer, from.raw, to.raw, &[region]);
+                let bytes = (*bytes).min(from.bytes()).min(to.bytes());
+                if bytes > 0 {
+                    let region = vk::BufferCopy::default().size(bytes);
+                    device.cmd_copy_buffer(buffer, from.raw, to.raw, &[region]);
+                }
             }
             Command::Dispatch { pipeline, bindings, groups } => {
                 bind(pipeline, bindings);
@@ -186,7 +248,11 @@ unsafe fn barrier(device: &ash::Device, buffer: vk::CommandBuffer) {
 }
 
 impl Ticket {
-    /// Waits until the work is done. Messages of the validation layer since then are an error.
+    /// Waits until the work is done.
+    ///
+    /// # Errors
+    ///
+    /// When the device was lost, or the validation layer has said something.
     pub fn wait(mut self) -> Result<()> {
         self.finish()?;
         let messages = self.inner.instance.messages.take();
@@ -215,6 +281,61 @@ impl Drop for Ticket {
         unsafe {
             self.inner.device.destroy_fence(self.fence, None);
             self.inner.device.destroy_command_pool(self.pool, None);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::{DeviceChoice, Place};
+    use crate::layout::Backend;
+    use crate::shader::{KernelKey, Sources, compile};
+
+    #[test]
+    fn sizes_of_a_dispatch_are_inside_their_buffer() {
+        assert_eq!(sizes_fault(52, 64), None);
+        for offset in [53, 56, 64, u64::MAX, u64::MAX - 11] {
+            assert!(sizes_fault(offset, 64).is_some(), "{offset}");
+        }
+        let error = check_groups(70_000, 65_535, "toy").unwrap_err().to_string();
+        assert!(error.starts_with("a dispatch has 70000 workgroups, device `toy` allows 65535; "), "{error}");
+        check_groups(65_535, 65_535, "toy").unwrap();
+    }
+
+    #[test]
+    fn commands_that_would_do_harm_are_refused() {
+        let open = || Gpu::open(&DeviceChoice::default()).unwrap();
+        let (gpu, other) = (open(), open());
+        let own = gpu.buffer("a", 64, Place::Readback).unwrap();
+        let foreign = other.buffer("b", 64, Place::Device).unwrap();
+        let fill = |buffer, bytes| Command::Fill { buffer, bytes, value: 7 };
+        assert!(gpu.run(&[fill(&own, 3)]).is_err());
+        assert!(gpu.run(&[fill(&foreign, 64)]).is_err());
+        assert!(gpu.run(&[Command::Copy { from: &foreign, to: &own, bytes: 64 }]).is_err());
+        assert!(gpu.bindings(&gpu.layout(Backend::Storage).unwrap(), &[("film", &foreign)]).is_err());
+        // More than there is means all, and nothing means nothing.
+        gpu.run(&[fill(&own, 1 << 40), Command::Barrier, fill(&own, 0)]).unwrap();
+        own.read(64, |words| assert_eq!(words, [7; 16])).unwrap();
+        assert!(own.read(68, |_| ()).is_err() && own.read(3, |_| ()).is_err());
+        assert!(!own.write(&[0; 65]) && own.write(&[0; 64]));
+    }
+
+    #[test]
+    fn bindings_go_with_kernels_of_their_back_end() {
+        let gpu = Gpu::open(&DeviceChoice::default()).unwrap();
+        let [storage, texel] = [Backend::Storage, Backend::Texel].map(|b| gpu.layout(b).unwrap());
+        let text = "layout(local_size_x = 64) in; void main() {}";
+        let sources = Sources::from_map([("a.comp", text)]).unwrap();
+        let kernel = compile(&sources, &KernelKey::new("a.comp")).unwrap();
+        let pipeline = gpu.pipeline(&storage, &kernel).unwrap();
+        let sizes = gpu.buffer("sizes", 16, Place::Device).unwrap();
+        for (layout, offset, sound) in [(&storage, 0, true), (&texel, 0, false), (&storage, 8, false)] {
+            let bindings = gpu.bindings(layout, &[]).unwrap();
+            let clear = Command::Fill { buffer: &sizes, bytes: 16, value: 1 };
+            let (pipeline, bindings, sizes) = (&pipeline, &bindings, &sizes);
+            let dispatch = Command::DispatchIndirect { pipeline, bindings, sizes, offset };
+            assert_eq!(gpu.run(&[clear, Command::Barrier, dispatch]).is_ok(), sound);
         }
     }
 }

@@ -92,6 +92,7 @@ pub(super) struct Inner {
 /// All devices of this machine, in the order of the driver list; `validation` as in [`DeviceChoice`].
 ///
 /// # Errors
+///
 /// When there is no loader or driver.
 pub fn devices(validation: bool) -> Result<Vec<DeviceInfo>> {
     let instance = Instance::new(validation)?;
@@ -101,6 +102,7 @@ pub fn devices(validation: bool) -> Result<Vec<DeviceInfo>> {
 /// The device that [`Gpu::open`] would open, without opening it.
 ///
 /// # Errors
+///
 /// When there is no loader or driver, or no device fits the choice.
 pub fn choose(choice: &DeviceChoice) -> Result<DeviceInfo> {
     let instance = Instance::new(choice.validation)?;
@@ -111,6 +113,7 @@ impl Gpu {
     /// Opens the chosen device.
     ///
     /// # Errors
+    ///
     /// When there is no loader or driver, no device fits the choice, or the driver refuses.
     pub fn open(choice: &DeviceChoice) -> Result<Self> {
         let instance = Instance::new(choice.validation)?;

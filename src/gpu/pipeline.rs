@@ -2,9 +2,11 @@
 
 use super::device::{Gpu, Inner};
 use super::{Buffer, Place, check, limits};
-use crate::layout::{BINDINGS, Backend, Binding, BindingKind, WORD_BYTES};
+use crate::layout::{BINDINGS, Backend, Binding, BindingKind, WORD_BYTES, WORKGROUP};
+use crate::shader::{BindingClass, Scan, Spirv, scan};
 use crate::{Error, Result};
 use ash::vk;
+use std::path::Path;
 use std::sync::Arc;
 
 /// The descriptor layout that all pipelines and bindings of a back end share.
@@ -43,8 +45,44 @@ fn descriptors(binding: &Binding, backend: Backend) -> Vec<(u32, vk::DescriptorT
     }
 }
 
+/// Compares what a kernel uses with the table.
+fn confirm(kernel: &Scan, backend: Backend) -> Result<()> {
+    let [x, y, z] = kernel.local_size;
+    if kernel.local_size != [WORKGROUP, 1, 1] {
+        return Err(Error::device(format!("the workgroups are of {x} x {y} x {z}, not {WORKGROUP} x 1 x 1"))
+            .help("leave `local_size_x` to the files that the kernel includes"));
+    }
+    for (&(set, number), &class) in &kernel.bindings {
+        let known = BINDINGS.iter().flat_map(|binding| descriptors(binding, backend));
+        let wanted =
+            known.filter(|known| set == 0 && known.0 == number).map(|known| class_of(known.1)).next();
+        let seen = format!("the kernel uses set {set}, binding {number} as {class}");
+        let message = match wanted {
+            Some(Some(wanted)) if wanted == class => continue,
+            Some(Some(wanted)) => format!("{seen}, but it is {wanted}"),
+            _ => format!("{seen}, but no such binding is bound"),
+        };
+        return Err(Error::device(message).help("use the names of shaders/shared/bindings.glsl alone"));
+    }
+    Ok(())
+}
+
+/// What a kernel may use a descriptor as.
+fn class_of(kind: vk::DescriptorType) -> Option<BindingClass> {
+    match kind {
+        vk::DescriptorType::STORAGE_BUFFER => Some(BindingClass::Storage),
+        vk::DescriptorType::UNIFORM_BUFFER => Some(BindingClass::Uniform),
+        vk::DescriptorType::UNIFORM_TEXEL_BUFFER => Some(BindingClass::TexelBuffer),
+        _ => None,
+    }
+}
+
 impl Gpu {
     /// Makes the layout that the pipelines and bindings of a back end share.
+    ///
+    /// # Errors
+    ///
+    /// When the device allows fewer storage buffers in a kernel than the table of bindings has.
     pub fn layout(&self, backend: Backend) -> Result<Arc<Layout>> {
         let bindings: Vec<_> = BINDINGS
             .iter()
@@ -80,11 +118,18 @@ impl Gpu {
         Ok(Arc::new(layout))
     }
 
-    /// Makes a pipeline from SPIR-V with the entry point `main`.
-    pub fn pipeline(&self, name: &str, layout: &Arc<Layout>, spirv: &[u32]) -> Result<Arc<Pipeline>> {
+    /// Makes a pipeline of a kernel.
+    ///
+    /// # Errors
+    ///
+    /// When the kernel uses a resource that the table of bindings does not have, has workgroups of another size, or the
+    /// driver refuses it.
+    pub fn pipeline(&self, layout: &Arc<Layout>, spirv: &Spirv) -> Result<Arc<Pipeline>> {
+        let name = &spirv.key().file;
+        confirm(&scan(spirv.words())?, layout.backend).map_err(|error| error.in_file(Path::new(name)))?;
         let device = &self.inner.device;
-        let info = vk::ShaderModuleCreateInfo::default().code(spirv);
-        // SAFETY: the words come from glslang; the module is destroyed below.
+        let info = vk::ShaderModuleCreateInfo::default().code(spirv.words());
+        // SAFETY: the words are sound, because only glslang makes a `Spirv`; the module is destroyed below.
         let module =
             check(unsafe { device.create_shader_module(&info, None) }, &format!("load kernel `{name}`"))?;
         let stage = vk::PipelineShaderStageCreateInfo::default()
@@ -92,7 +137,8 @@ impl Gpu {
             .module(module)
             .name(c"main");
         let infos = [vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout.pipeline)];
-        // SAFETY: module and layout are of this device; the module may go once the pipeline is made.
+        // SAFETY: module and layout are of this device, and the layout has what the kernel uses; the module may go once the
+        // pipeline is made.
         let made = unsafe {
             let made = device.create_compute_pipelines(vk::PipelineCache::null(), &infos, None);
             device.destroy_shader_module(module, None);
@@ -103,10 +149,17 @@ impl Gpu {
         Ok(Arc::new(Pipeline { raw, layout: layout.clone() }))
     }
 
-    /// Makes a descriptor set. Each buffer is named by the table; a name that is not in it is an error.
+    /// Makes a descriptor set. Each buffer is named by the table; what is not given is a dummy of one word.
+    ///
+    /// # Errors
+    ///
+    /// When a name is not in the table, a buffer is of another device, or one is longer than a descriptor may be.
     pub fn bindings(&self, layout: &Arc<Layout>, buffers: &[(&str, &Arc<Buffer>)]) -> Result<Arc<Bindings>> {
         if let Some((name, _)) = buffers.iter().find(|(name, _)| BINDINGS.iter().all(|b| b.name != *name)) {
             return Err(Error::device(format!("no binding is called `{name}`")));
+        }
+        if let Some((name, _)) = buffers.iter().find(|(_, buffer)| !buffer.is_of(&self.inner)) {
+            return Err(Error::device(format!("buffer `{name}` is of another device")));
         }
         let dummy = self.buffer("dummy", WORD_BYTES, Place::Device)?;
         let device = &self.inner.device;
@@ -146,7 +199,19 @@ impl Gpu {
     }
 }
 
+impl Layout {
+    /// Whether the layout was made by a device.
+    pub(super) fn is_of(&self, device: &Arc<Inner>) -> bool {
+        Arc::ptr_eq(&self.inner, device)
+    }
+}
+
 impl Bindings {
+    /// Whether kernels of a layout can be dispatched with this.
+    pub(super) fn fits(&self, layout: &Layout) -> bool {
+        self.layout.backend == layout.backend && self.layout.is_of(&layout.inner)
+    }
+
     fn bind(
         &mut self,
         name: &str,
@@ -207,5 +272,48 @@ impl Drop for Bindings {
             }
             self.layout.inner.device.destroy_descriptor_pool(self.pool, None);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shader::{KernelKey, Sources, compile};
+
+    /// What a kernel uses that has some lines in front of an empty `main`.
+    fn kernel(size: u32, lines: &str) -> Scan {
+        let text = format!("layout(local_size_x = {size}) in;\n{lines}");
+        let sources = Sources::from_map([("a.comp", text)]).unwrap();
+        scan(compile(&sources, &KernelKey::new("a.comp")).unwrap().words()).unwrap()
+    }
+
+    fn texels(set: u32, number: u32) -> Scan {
+        kernel(
+            64,
+            &format!(
+                "layout(set = {set}, binding = {number}) uniform usamplerBuffer a;
+                 layout(std430, set = 0, binding = 18) buffer B {{ uint b[]; }};
+                 void main() {{ b[0] = texelFetch(a, 1).x; }}"
+            ),
+        )
+    }
+
+    #[test]
+    fn kernels_keep_to_the_table() {
+        // The nodes are binding 1, and 33 as texels.
+        confirm(&texels(0, 33), Backend::Texel).unwrap();
+        let refused = |scan: &Scan, backend| confirm(scan, backend).unwrap_err().to_string();
+        let text = refused(&texels(0, 33), Backend::Storage);
+        assert_eq!(
+            text,
+            "the kernel uses set 0, binding 33 as a texel buffer, but no such binding is bound; \
+             use the names of shaders/shared/bindings.glsl alone"
+        );
+        assert!(refused(&texels(1, 33), Backend::Texel).contains("set 1, binding 33"));
+        assert!(refused(&texels(0, 90), Backend::Texel).contains("no such binding"));
+        let text = refused(&texels(0, 18 - 1), Backend::Texel);
+        assert!(text.contains("binding 17 as a texel buffer, but it is a storage buffer"), "{text}");
+        let text = refused(&kernel(32, "void main() {}"), Backend::Texel);
+        assert!(text.starts_with("the workgroups are of 32 x 1 x 1, not 64 x 1 x 1"), "{text}");
     }
 }

@@ -7,7 +7,7 @@ use crate::layout::{
 use crate::scene::{FilterKind, Sampler, Scene};
 use std::collections::BTreeMap;
 
-/// The kernels of a wave.
+/// The kernels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
     /// First rays.
@@ -31,7 +31,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// All stages.
+    /// All stages; those of a wave come first, in the order of the enum.
     pub const ALL: [Self; 9] = [
         Self::Camera,
         Self::Intersect,
@@ -42,6 +42,18 @@ impl Stage {
         Self::Advance,
         Self::Film,
         Self::Evaluate,
+    ];
+
+    /// The stages that paths go through.
+    pub const WAVE: [Self; 8] = [
+        Self::Camera,
+        Self::Intersect,
+        Self::Shade,
+        Self::Shadow,
+        Self::IntersectLong,
+        Self::ShadowLong,
+        Self::Advance,
+        Self::Film,
     ];
 
     /// Whether rays are followed.

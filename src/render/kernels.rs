@@ -20,7 +20,8 @@ pub fn key(scene: &Scene, prepared: &Prepared, stage: Stage, backend: Backend) -
 }
 
 impl Kernels {
-    /// Compiles all stages for a scene and makes their pipelines. Gives the texture code of the scene to `compiler`.
+    /// Compiles the stages of a wave for a scene and makes their pipelines. Gives the texture code of the scene to
+    /// `compiler`.
     ///
     /// # Errors
     ///
@@ -35,9 +36,9 @@ impl Kernels {
         compiler.sources_mut().set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str())?;
         let layout = gpu.layout(backend)?;
         let mut pipelines = Vec::new();
-        for stage in Stage::ALL {
+        for stage in Stage::WAVE {
             let spirv = compiler.kernel(&key(scene, prepared, stage, backend))?;
-            pipelines.push((stage, gpu.pipeline(stage.file(), &layout, &spirv.words)?));
+            pipelines.push((stage, gpu.pipeline(&layout, &spirv)?));
         }
         Ok(Self { layout, pipelines })
     }
@@ -56,9 +57,9 @@ impl Kernels {
         self.pipelines.iter().find(|(_, own)| Arc::ptr_eq(own, pipeline)).map(|(stage, _)| *stage)
     }
 
-    /// The pipeline of a stage.
-    pub fn pipeline(&self, stage: Stage) -> &Arc<Pipeline> {
-        // Made for every stage, in the order of `Stage::ALL`, which is that of the enum.
+    /// The pipeline of a stage of the wave.
+    pub(super) fn pipeline(&self, stage: Stage) -> &Arc<Pipeline> {
+        // Made for every stage of a wave, in the order of `Stage::WAVE`, which is that of the enum.
         &self.pipelines[stage as usize].1
     }
 }

@@ -4,10 +4,12 @@ mod frame;
 mod kernels;
 pub mod plan;
 mod resident;
+mod slicing;
 mod wave;
 
 pub use kernels::{Kernels, key};
 pub use resident::Resident;
+pub use slicing::Slicing;
 
 use crate::film::{self, Film};
 use crate::gpu::{Buffer, Command, DeviceType, Gpu, Place};
@@ -17,18 +19,10 @@ use crate::scene::{Rect, Scene};
 use crate::shader::Compiler;
 use crate::{Error, Result};
 use plan::{Plan, Slice, Tiles};
+use slicing::{FIRST_SLOTS, LEAST_SLOTS};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use wave::Wave;
-
-/// How a render is cut into slices. The pixels do not depend on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Slicing {
-    /// Most paths of a slice.
-    pub slots: u32,
-    /// Time that a slice should take; the number of paths follows it from below `slots`.
-    pub budget: Duration,
-}
 
 /// What a render did so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,8 +31,10 @@ pub struct Progress {
     pub spp: u32,
     /// Share of the work that is done, 0..=1.
     pub done: f64,
-    /// Paths that were traced.
+    /// Paths that were sent to the device.
     pub samples: u64,
+    /// Those of them that are known to be done.
+    pub computed: u64,
     /// Since the first slice began.
     pub elapsed: Duration,
 }
@@ -76,8 +72,8 @@ impl Rays {
 /// What the stages of a render took.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Measured {
-    /// Seconds of each stage, in the order of [`Stage::ALL`].
-    pub seconds: [f64; Stage::ALL.len()],
+    /// Seconds of each stage, in the order of [`Stage::WAVE`].
+    pub seconds: [f64; Stage::WAVE.len()],
     /// First rays of the paths.
     pub camera: Rays,
     /// Their other rays.
@@ -109,17 +105,6 @@ impl Options {
     /// What suits a device.
     pub fn of(gpu: &Gpu) -> Self {
         Self { backend: backend_of(gpu), slicing: Slicing::of(gpu) }
-    }
-}
-
-impl Slicing {
-    /// What suits a device.
-    pub fn of(gpu: &Gpu) -> Self {
-        if gpu.info().kind == DeviceType::Cpu {
-            Self { slots: 1 << 16, budget: Duration::from_millis(60) }
-        } else {
-            Self { slots: 1 << 20, budget: Duration::from_millis(60) }
-        }
     }
 }
 
@@ -214,7 +199,7 @@ impl Renderer {
             band,
             work,
             most_slots,
-            slots: most_slots,
+            slots: most_slots.min(FIRST_SLOTS),
         })
     }
 
@@ -228,7 +213,7 @@ impl Renderer {
         let mut run = self.start(spp)?;
         let mut plan = Plan::new(run.tiles, run.band, 0, spp);
         let mut measured = Measured::default();
-        while let Some(slice) = plan.next(run.slots) {
+        while let Some(slice) = plan.next(run.most_slots) {
             run.frames[0] = frame::of_slice(&self.frame, &slice, plan.band_of(slice.first_tile));
             run.waves[0].measure(&self.gpu, &self.kernels, &run.frames[0], &mut measured)?;
             run.finish(0)?;
@@ -278,8 +263,8 @@ impl Run<'_> {
         watch: &mut dyn FnMut(&Progress) -> Next,
     ) -> Result<()> {
         let start = Instant::now();
-        let (mut samples, mut stop, mut turn) = (0_u64, false, 0_usize);
-        let mut last = start;
+        let (mut samples, mut computed, mut stop, mut turn) = (0_u64, 0_u64, false, 0_usize);
+        let (mut last, mut before): (_, Option<Slice>) = (start, None);
         while let Some(slice) = plan.next(self.slots) {
             let band = plan.band_of(slice.first_tile);
             if self.dirty.is_some_and(|dirty| dirty != band) {
@@ -288,7 +273,10 @@ impl Run<'_> {
             self.start(turn, &slice, band)?;
             // The slice before this one has been computed meanwhile.
             self.finish(1 - turn)?;
-            self.adapt(&slice, last.elapsed());
+            if let Some(before) = before.replace(slice) {
+                computed += u64::from(before.slots());
+                self.adapt(before.slots(), last.elapsed());
+            }
             last = Instant::now();
             turn = 1 - turn;
             samples += u64::from(slice.slots());
@@ -296,6 +284,7 @@ impl Run<'_> {
                 spp: slice.first_sample - first_sample + if plan.at_pass_end() { slice.samples } else { 0 },
                 done: samples as f64 / self.work.max(1) as f64,
                 samples,
+                computed,
                 elapsed: start.elapsed(),
             };
             stop |= watch(&progress) == Next::Stop;
@@ -317,13 +306,9 @@ impl Run<'_> {
     }
 
     /// Follows the time budget by steps of two, so that slices keep to few sizes.
-    fn adapt(&mut self, slice: &Slice, took: Duration) {
-        let budget = self.renderer.slicing.budget;
-        if took > budget * 2 && slice.slots() >= self.slots / 2 {
-            self.slots = (self.slots / 2).max(LEAST_SLOTS.min(self.most_slots));
-        } else if took < budget / 4 {
-            self.slots = (self.slots * 2).min(self.most_slots);
-        }
+    fn adapt(&mut self, slots: u32, took: Duration) {
+        let next = self.renderer.slicing.next(self.slots, slots, took);
+        self.slots = next.clamp(LEAST_SLOTS.min(self.most_slots), self.most_slots);
     }
 
     /// Adds the sums on the device to those of the host, and clears them.
@@ -345,9 +330,6 @@ impl Run<'_> {
         self.host_film.read(bytes, |words| add_tiles(sums, window, first, count, words))?
     }
 }
-
-/// Fewest paths of a slice: below it, starting kernels takes longer than running them.
-const LEAST_SLOTS: u32 = 4096;
 
 /// Adds tiles, whose pixels are in Morton order and whose planes hold all of them, to the film.
 fn add_tiles(sums: &mut Film, window: Rect, first: u32, count: u32, words: &[u32]) -> Result<()> {

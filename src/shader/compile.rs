@@ -36,15 +36,29 @@ pub struct KernelKey {
     pub defines: BTreeMap<String, String>,
 }
 
-/// A compiled kernel.
+/// A compiled kernel. Only this room makes one, and nothing changes it: drivers trust what is in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Spirv {
+    pub(super) key: KernelKey,
+    pub(super) words: Vec<u32>,
+    pub(super) includes: BTreeSet<String>,
+}
+
+impl Spirv {
     /// What was compiled.
-    pub key: KernelKey,
+    pub fn key(&self) -> &KernelKey {
+        &self.key
+    }
+
     /// SPIR-V 1.3 for Vulkan 1.1. Entry point `main`.
-    pub words: Vec<u32>,
+    pub fn words(&self) -> &[u32] {
+        &self.words
+    }
+
     /// The names of every file that went in, the kernel's own among them.
-    pub includes: BTreeSet<String>,
+    pub fn includes(&self) -> &BTreeSet<String> {
+        &self.includes
+    }
 }
 
 impl KernelKey {

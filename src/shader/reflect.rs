@@ -1,6 +1,7 @@
 //! What a kernel expects of its host, read with naga, and the proof that the kernel is portable.
 
 use std::error::Error as StdError;
+use std::fmt;
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, GlobalVariable, Handle, ImageClass, Module, Type, TypeInner};
@@ -27,6 +28,21 @@ pub enum BindingClass {
     StorageTexture,
     /// A sampler.
     Sampler,
+}
+
+impl fmt::Display for BindingClass {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Storage => "a storage buffer",
+            Self::Uniform => "a uniform buffer",
+            Self::TexelBuffer => "a texel buffer",
+            Self::StorageTexelBuffer => "a texel buffer to write to",
+            Self::Texture => "a texture",
+            Self::CombinedTexture => "a texture with its sampler",
+            Self::StorageTexture => "a texture to write to",
+            Self::Sampler => "a sampler",
+        })
+    }
 }
 
 /// A resource that a kernel uses.

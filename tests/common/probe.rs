@@ -91,7 +91,7 @@ impl Probe {
             key = key.define("TEXEL_FETCH", 1);
         }
         let layout = self.gpu.layout(backend)?;
-        let pipeline = self.gpu.pipeline("probe.comp", &layout, &compiler.kernel(&key)?.words)?;
+        let pipeline = self.gpu.pipeline(&layout, &compiler.kernel(&key)?)?;
         let kernel = (layout, pipeline);
         self.kernels.lock().unwrap_or_else(PoisonError::into_inner).insert(name, kernel.clone());
         Ok(kernel)

@@ -7,18 +7,15 @@ use dapple::scene::{
 };
 use glam::{Affine3A, Mat3, Quat, Vec3};
 
-/// A scene with its name and what it measures.
-pub(super) struct Benchmark {
-    pub(super) name: &'static str,
-    pub(super) scene: Scene,
-}
+/// Name of a scene, and how to make it.
+type Named = (&'static str, fn() -> Scene);
 
-/// All scenes, each built when it is its turn.
-pub(super) const ALL: [fn() -> Benchmark; 3] = [blob_scene, glass_scene, forest_scene];
+/// All scenes.
+pub(super) const ALL: [Named; 3] = [("blob", blob_scene), ("glass", glass_scene), ("forest", forest_scene)];
 
 /// One large flat mesh over a ground under a square light and a constant sky, diffuse, five events a path: the scene
 /// that `--write-scene` writes.
-pub(super) fn blob_scene() -> Benchmark {
+pub(super) fn blob_scene() -> Scene {
     let mut scene = room(5);
     let clay = diffuse(&mut scene, "blob", Vec3::new(0.6, 0.5, 0.4));
     let mesh = scene.meshes.add("blob", blob::mesh(7));
@@ -28,11 +25,11 @@ pub(super) fn blob_scene() -> Benchmark {
         material: clay,
         world_from_object: Affine3A::IDENTITY,
     });
-    Benchmark { name: "blob", scene }
+    scene
 }
 
 /// Spheres of glass, metal and clay: branching materials, long paths.
-fn glass_scene() -> Benchmark {
+fn glass_scene() -> Scene {
     let mut scene = room(10);
     let constant = Value::Constant;
     let glass = scene.materials.add(
@@ -69,11 +66,11 @@ fn glass_scene() -> Benchmark {
             scene.shapes.push(shape(kind, material));
         }
     }
-    Benchmark { name: "glass", scene }
+    scene
 }
 
 /// A thousand turned and scaled copies of a small blob: two levels of trees.
-fn forest_scene() -> Benchmark {
+fn forest_scene() -> Scene {
     let mut scene = room(5);
     let leaf = diffuse(&mut scene, "leaf", Vec3::new(0.3, 0.5, 0.2));
     let mesh = scene.meshes.add("blob", blob::mesh(5));
@@ -93,7 +90,7 @@ fn forest_scene() -> Benchmark {
             ),
         });
     }
-    Benchmark { name: "forest", scene }
+    scene
 }
 
 /// Camera, ground, light and sky that all scenes share.

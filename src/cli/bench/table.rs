@@ -32,10 +32,10 @@ pub(super) fn text(report: &Report) -> String {
         });
     }
     line("BVH build, Mtriangles/s", &|row| format!("{:.2}", row.bvh_mtriangles_per_second));
-    line("BVH SAH cost", &|row| format!("{:.2}", row.bvh_sah_cost));
-    line("kernels, cold cache, s", &|row| format!("{:.3}", row.compile_cold_seconds));
-    line("kernels, warm cache, s", &|row| format!("{:.3}", row.compile_warm_seconds));
-    line("start to first slice, s", &|row| format!("{:.3}", row.first_slice_seconds));
+    line("BVH SAH cost", &|row| row.bvh_sah_cost.map_or("-".to_owned(), |cost| format!("{cost:.2}")));
+    line("kernels, cold caches, s", &|row| format!("{:.3}", row.compile_cold_seconds));
+    line("kernels, warm caches, s", &|row| format!("{:.3}", row.compile_warm_seconds));
+    line("start to end of first slice, s", &|row| format!("{:.3}", row.first_slice_seconds));
     let mib = |bytes: u64| format!("{:.1}", bytes as f64 / f64::from(1 << 20));
     line("device memory, MiB", &|row| mib(row.device_bytes));
     line("peak memory of the process, MiB", &|row| row.peak_memory_bytes.map_or("unknown".to_owned(), mib));

@@ -3,6 +3,7 @@
 use super::blob;
 use dapple::scene::Mesh;
 use dapple::{Error, Result};
+use std::io::{self, Write as _};
 use std::path::Path;
 
 const SCENE: &str = "\
@@ -64,8 +65,22 @@ pub(super) fn write(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(|error| fail(folder, &error))?;
     for (name, bytes) in [("blob.ply", ply(&blob::mesh(7))), ("blob.toml", SCENE.as_bytes().to_vec())] {
         let path = folder.join(name);
-        std::fs::write(&path, bytes).map_err(|error| fail(&path, &error))?;
+        write_whole(folder, &path, &bytes).map_err(|error| fail(&path, &error))?;
     }
+    Ok(())
+}
+
+/// Writes a file under another name in the same folder and renames it once the disk has it.
+fn write_whole(folder: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".dapple-").suffix(".tmp");
+    // As any new file: readable by all but for what the umask of the user takes away
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|refused| refused.error)?;
     Ok(())
 }
 
@@ -98,11 +113,29 @@ mod tests {
         write(folder.path()).unwrap();
         let (read, warnings) = dapple::import::read_scene(&folder.path().join("blob.toml"), &[]).unwrap();
         assert!(warnings.is_empty(), "{warnings:?}");
-        let built = super::super::scenes::blob_scene().scene;
+        let built = super::super::scenes::blob_scene();
         let mesh = |scene: &dapple::scene::Scene| scene.meshes[scene.instances[0].mesh].clone();
         assert_eq!(mesh(&read).positions, mesh(&built).positions);
         assert_eq!(mesh(&read).triangles, mesh(&built).triangles);
         assert_eq!((&read.film, &read.render, &read.camera), (&built.film, &built.render, &built.camera));
         assert_eq!(read.environment, built.environment);
+        assert_eq!(names(folder.path()), ["blob.ply", "blob.toml"]);
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_replaced_leaves_the_folder_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("blob.ply")).unwrap();
+        let error = write(folder.path()).unwrap_err();
+        assert_eq!(error.place.unwrap().file, folder.path().join("blob.ply"));
+        assert_eq!(names(folder.path()), ["blob.ply"]);
     }
 }
