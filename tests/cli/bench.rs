@@ -2,7 +2,7 @@
 
 use super::*;
 
-const LINES: [&str; 22] = [
+const LINES: [&str; 24] = [
     "triangles",
     "samples a pixel",
     "mean radiance",
@@ -14,6 +14,8 @@ const LINES: [&str; 22] = [
     "stage intersect, s",
     "stage shade, s",
     "stage shadow, s",
+    "stage intersect (long rays), s",
+    "stage shadow (long rays), s",
     "stage advance, s",
     "stage film, s",
     "BVH build, Mtriangles/s",
@@ -66,7 +68,8 @@ fn json_has_the_figures_as_numbers() {
     assert!(cold.as_f64() > warm.as_f64(), "caches that save no time: {cold}, {warm}");
     let stages: Vec<&str> =
         row["stage_seconds"].as_array().unwrap().iter().map(|s| s[0].as_str().unwrap()).collect();
-    assert_eq!(stages, ["camera", "intersect", "shade", "shadow", "advance", "film"]);
+    let long = ["intersect (long rays)", "shadow (long rays)"];
+    assert_eq!(stages, ["camera", "intersect", "shade", "shadow", long[0], long[1], "advance", "film"]);
     // Only the scene is in the folder: caches were elsewhere.
     assert_eq!(room.names(), ["scene.toml"]);
 }
