@@ -53,7 +53,6 @@ const MOST_RUST_LINES: usize = 400;
 const LONG_FILES: &[(&str, usize, &str)] = &[
     ("shaders/shared/layout.glsl", 1000, "written from src/layout; nobody reads it from top to bottom"),
     ("shaders/stages/shade.comp", 170, "one scattering event in the order in which it happens"),
-    ("shaders/geometry/traverse.glsl", 160, "one loop over two levels of trees; a cut would go through it"),
 ];
 
 fn root() -> &'static Path {

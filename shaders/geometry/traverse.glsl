@@ -1,7 +1,8 @@
 // Rays through the two levels of trees. Switches of the variant: HAS_INSTANCES (there is a tree over instances; else
 // the root is that of the triangles in world space), HAS_SPHERES, HAS_DISKS, ANY_HIT (stop at the first hit), PARKING.
 //
-// A ray takes at most `frame.step_limit` steps at once: Mesa before 25.0 leaves loops after 65,535 rounds.
+// A ray takes at most `frame.step_limit` steps at once: Mesa before 25.0 leaves loops after 65,535 rounds. A step takes up
+// to ROUNDS_A_STEP of them.
 #include "shared/bindings.glsl"
 #include "geometry/instance.glsl"
 #include "geometry/quadric.glsl"
@@ -13,37 +14,13 @@ struct Hit { float t; uint triangle; uint instance; };
 const uint REFERENCE_DONE = 0xffffffffu;
 const uint REFERENCE_LEAVE_INSTANCE = 0xfffffffeu;
 
-// A ray in the space of the tree that it is in, made ready for boxes and triangles.
-struct TreeRay { vec3 origin; vec3 inverse; bvec3 backward; TriangleRay triangles; };
-
-// 1 / direction without infinities, so that a box test never meets 0 · ∞.
-TreeRay tree_ray(vec3 origin, vec3 direction)
-{
-    const float tiny = 1e-25;
-    vec3 d = vec3(abs(direction.x) < tiny ? tiny : direction.x, abs(direction.y) < tiny ? tiny : direction.y,
-                  abs(direction.z) < tiny ? tiny : direction.z);
-    return TreeRay(origin, 1.0 / d, lessThan(d, vec3(0.0)), triangle_ray(origin, direction));
-}
-
 // Where a ray is: what is open, and what it met so far.
 struct Walk { uint current; uint depth; uint instance; Hit hit; };
 
 #ifdef PARKING
 #include "geometry/park.glsl"
 #endif
-
-// Without the care for NaN that makes min and max three times as long on lavapipe.
-float larger(float a, float b) { return a > b ? a : b; }
-float smaller(float a, float b) { return a < b ? a : b; }
-
-// Entry and exit distance of a box; the exit is widened by the rounding of the test (Ize 2013).
-vec2 box_range(vec3 low, vec3 high, TreeRay ray, float t_max)
-{
-    vec3 near = (mix(low, high, ray.backward) - ray.origin) * ray.inverse;
-    vec3 far = (mix(high, low, ray.backward) - ray.origin) * ray.inverse;
-    return vec2(larger(larger(near.x, near.y), larger(near.z, 0.0)),
-                smaller(smaller(far.x, far.y), smaller(far.z, t_max)) * 1.00000036);
-}
+#include "geometry/node.glsl"
 
 bool is_in_tree(uint reference) { return (reference & (LEAF | LEAF_INSTANCE)) != (LEAF | LEAF_INSTANCE); }
 
@@ -81,26 +58,27 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
             uvec4 w3 = fetch_tree(item * NODE_WORDS + 3u);
             Node node = node_unpack(w0, w1, w2, w3);
             Triangle triangle = triangle_unpack(w0, w1, w2, w3);
-            vec2 range0 = box_range(node.min0, node.max0, ray, walk.hit.t);
-            vec2 range1 = box_range(node.min1, node.max1, ray, walk.hit.t);
-            bool enter0 = range0.x <= range0.y;
-            bool enter1 = range1.x <= range1.y;
-            bool swap = enter1 && (!enter0 || range1.x < range0.x);
+            OpenChildren children = node_open(node, ray, walk.hit.t);
             float t;
             vec2 bary;
             bool found = triangle_hit(triangle.a, triangle.b, triangle.c, ray.triangles, walk.hit.t, t, bary) && leaf;
             walk.hit.t = found ? t : walk.hit.t;
             walk.hit.triangle = found ? item : walk.hit.triangle;
             walk.hit.instance = found ? walk.instance : walk.hit.instance;
-            // The next triangle of the leaf, the nearer child, or what is on top of the stack
+            // The next triangle of the leaf, the nearest child, or what is on top of the stack
             bool last = (walk.current & LEAF_COUNT_MASK) == 0u;
-            bool pop = leaf ? last : !enter0 && !enter1;
-            bool push = !leaf && enter0 && enter1;
-            uint next = leaf ? walk.current + 1u - (1u << LEAF_COUNT_SHIFT) : swap ? node.child1 : node.child0;
-            stack[walk.depth] = swap ? node.child0 : node.child1;
+            bool pop = leaf ? last : children.count == 0u;
+            uint next = leaf ? walk.current + 1u - (1u << LEAF_COUNT_SHIFT) : children.nearest.x;
+            // The others wait, the farthest lowest. A loop, since a store that no lane needs costs as much as any
+            uint others = leaf ? 0u : max(children.count, 1u) - 1u;
+            uint entry = others == 3u ? children.nearest.w : others == 2u ? children.nearest.z : children.nearest.y;
+            for (uint k = 0u; k < others; ++k) {
+                stack[walk.depth + k] = entry;
+                entry = others - k == 3u ? children.nearest.z : children.nearest.y;
+            }
             uint top = stack[walk.depth - 1u];
             walk.current = pop ? top : next;
-            walk.depth = push ? walk.depth + 1u : pop ? walk.depth - 1u : walk.depth;
+            walk.depth = pop ? walk.depth - 1u : walk.depth + others;
             steps += 1u;
 #ifdef ANY_HIT
             if (found) walk.current = REFERENCE_DONE;

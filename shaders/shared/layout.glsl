@@ -3,7 +3,7 @@
 const uint NONE = 4294967295u; // No object.
 const uint WORKGROUP = 64u; // Invocations of a workgroup: `local_size_x`, the only size in use.
 const uint TILE = 8u; // Side of a square tile of pixels: a workgroup takes one.
-const uint STACK_ENTRIES = 96u; // Most entries that the traversal stack of a kernel may have. `prepare` proves that every tree fits.
+const uint STACK_ENTRIES = 160u; // Most entries that the traversal stack of a kernel may have. `prepare` proves that every tree fits.
 const uint FILM_PLANES = 9u; // Words a pixel of the film.
 const uint RAY_WORDS = 2u; // Words of the ray of a slot.
 const uint HIT_WORDS = 1u; // Words of what the ray of a slot met.
@@ -11,6 +11,7 @@ const uint PATH_WORDS = 3u; // Words of the path of a slot.
 const uint SHADOW_WORDS = 3u; // Words of the shadow ray of a slot.
 const uint AOV_WORDS = 2u; // Words of albedo, depth and normal of a slot.
 const uint PARKED_HEAD = 6u; // Numbers that a parked ray keeps beside its stack.
+const uint ROUNDS_A_STEP = 4u; // Most rounds of loops that a step of a traversal takes: its own, and one for each child that waits.
 const uint QUEUE_BINS = 8u; // Parts of a queue, one for each octant of directions.
 const uint COUNTER_TURN = 0u; // Counter: the half of the queues that is read, 0 or 1; the other half is filled.
 const uint COUNTER_WAITING_PATHS = 1u; // Counter: paths that wait.
@@ -101,27 +102,23 @@ struct Frame {
 };
 
 struct Node {
-    vec3 min0; // least corner of the first child
-    uint child0; // the first child: a node, or LEAF with count and first primitive, or LEAF and LEAF_INSTANCE with an instance
-    vec3 max0; // greatest corner of the first child
-    uint spare0; // room
-    vec3 min1; // least corner of the second child
-    uint child1; // the second child
-    vec3 max1; // greatest corner of the second child
-    uint spare1; // room
+    vec3 origin; // least corner of all children
+    uint exponents; // exponents of the steps along x, y and z, a byte each
+    uvec4 children; // the children: a node, or LEAF with count and first primitive, or LEAF and LEAF_INSTANCE with an instance, or NONE
+    uvec3 low; // least corners along x, y and z; a byte for each child
+    uvec3 high; // greatest corners along x, y and z; a byte for each child
+    uvec2 spare; // room
 };
 const uint NODE_WORDS = 4u;
 Node node_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
 {
     Node r;
-    r.min0 = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
-    r.child0 = w0.w;
-    r.max0 = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
-    r.spare0 = w1.w;
-    r.min1 = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
-    r.child1 = w2.w;
-    r.max1 = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
-    r.spare1 = w3.w;
+    r.origin = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.exponents = w0.w;
+    r.children = uvec4(w1.x, w1.y, w1.z, w1.w);
+    r.low = uvec3(w2.x, w2.y, w2.z);
+    r.high = uvec3(w2.w, w3.x, w3.y);
+    r.spare = uvec2(w3.z, w3.w);
     return r;
 }
 

@@ -18,7 +18,7 @@ constants! {
     /// Side of a square tile of pixels: a workgroup takes one.
     TILE = 8;
     /// Most entries that the traversal stack of a kernel may have. `prepare` proves that every tree fits.
-    STACK_ENTRIES = 96;
+    STACK_ENTRIES = 160;
     /// Words a pixel of the film.
     FILM_PLANES = 9;
     /// Words of the ray of a slot.
@@ -33,6 +33,8 @@ constants! {
     AOV_WORDS = 2;
     /// Numbers that a parked ray keeps beside its stack.
     PARKED_HEAD = 6;
+    /// Most rounds of loops that a step of a traversal takes: its own, and one for each child that waits.
+    ROUNDS_A_STEP = 4;
     /// Parts of a queue, one for each octant of directions.
     QUEUE_BINS = 8;
     /// Counter: the half of the queues that is read, 0 or 1; the other half is filled.

@@ -170,24 +170,21 @@ records! {
         point_count: u32,
     }
 
-    /// Two child boxes of a BVH node (Aila and Laine 2009).
+    /// Up to four children of a BVH node, with their boxes in bytes: corner = origin + byte · 2^(exponent − 127), rounded
+    /// outwards (Ylitie, Karras and Laine 2017, section 3, with four children in place of eight).
     struct Node {
-        /// least corner of the first child
-        min0: [f32; 3],
-        /// the first child: a node, or LEAF with count and first primitive, or LEAF and LEAF_INSTANCE with an instance
-        child0: u32,
-        /// greatest corner of the first child
-        max0: [f32; 3],
+        /// least corner of all children
+        origin: [f32; 3],
+        /// exponents of the steps along x, y and z, a byte each
+        exponents: u32,
+        /// the children: a node, or LEAF with count and first primitive, or LEAF and LEAF_INSTANCE with an instance, or NONE
+        children: [u32; 4],
+        /// least corners along x, y and z; a byte for each child
+        low: [u32; 3],
+        /// greatest corners along x, y and z; a byte for each child
+        high: [u32; 3],
         /// room
-        spare0: u32,
-        /// least corner of the second child
-        min1: [f32; 3],
-        /// the second child
-        child1: u32,
-        /// greatest corner of the second child
-        max1: [f32; 3],
-        /// room
-        spare1: u32,
+        spare: [u32; 2],
     }
 
     /// A triangle in the order of the tree. As many words as a [`Node`]: both are items of one buffer.

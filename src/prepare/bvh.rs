@@ -1,39 +1,24 @@
-//! Bounding volume hierarchies: built by `obvhs`, turned into records, and proven to fit the stack.
+//! Bounding volume hierarchies: built by `obvhs`, widened, and proven to fit the stack.
 
 use super::Bounds;
-use crate::layout::{LEAF, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, NONE, Node};
+use super::wide::Tree;
 use glam::Vec3;
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+use obvhs::bvh2::{Bvh2, builder::build_bvh2, node::Bvh2Node};
 use obvhs::{Boundable, BvhBuildParams};
 
 /// Most primitives of a leaf: what three bits hold.
 pub const MAX_LEAF: u32 = 8;
-/// Inner nodes on the longest way down that a tree may have. Two levels of trees and their marks fit the stack.
-pub const MAX_DEPTH: u32 = 44;
+/// Stack entries that a tree may need. Two levels of trees and their marks fit the stack.
+pub const MAX_DEPTH: u32 = 76;
 
 /// How much work to put into a tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quality {
-    /// What `render` uses.
+    /// What `render` uses for triangles.
     Default,
-    /// Twice the time for a few per cent fewer steps.
+    /// Several times the time for a few per cent fewer steps. For trees over instances, which are few.
     High,
-}
-
-/// A tree over boxes.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Tree {
-    /// Inner nodes; references count from 0 in this tree.
-    pub nodes: Vec<Node>,
-    /// Primitive at each place of the leaves.
-    pub order: Vec<u32>,
-    /// Where to start: a reference as in [`Node`]; NONE for no primitives.
-    pub root: u32,
-    /// Inner nodes on the longest way down: the stack entries that a ray may need.
-    pub depth: u32,
-    /// Expected cost of a random ray by the surface area heuristic: a step down costs 1, a primitive 1.
-    pub cost: f32,
 }
 
 struct Boxed(Bounds);
@@ -47,27 +32,29 @@ impl Boundable for Boxed {
 /// Builds a tree over boxes with at most `max_leaf` (≤ [`MAX_LEAF`]) primitives a leaf.
 pub fn build(bounds: Vec<Bounds>, max_leaf: u32, quality: Quality) -> Tree {
     if bounds.is_empty() {
-        return Tree { root: NONE, ..Tree::default() };
+        return Tree::empty();
     }
     let coincident = many_coincide(&bounds);
     let boxes: Vec<Boxed> = bounds.into_iter().map(Boxed).collect();
-    if coincident {
-        return balanced(&boxes, max_leaf);
+    if !coincident {
+        let binary = build_bvh2(&boxes, params(max_leaf, quality), &mut std::time::Duration::default());
+        match Tree::widened(&binary) {
+            Some(tree) if tree.depth <= MAX_DEPTH => return tree,
+            _ => {}
+        }
     }
-    let tree =
-        Tree::from_obvhs(&build_bvh2(&boxes, params(max_leaf, quality), &mut std::time::Duration::default()));
-    match tree {
-        Some(tree) if tree.depth <= MAX_DEPTH => tree,
-        _ => balanced(&boxes, max_leaf),
-    }
+    // Every leaf is small enough: its size is chosen below
+    Tree::widened(&balanced(&boxes, max_leaf)).unwrap_or_else(Tree::empty)
 }
 
 fn params(max_leaf: u32, quality: Quality) -> BvhBuildParams {
     let base = match quality {
-        Quality::Default => BvhBuildParams::fast_build(),
+        Quality::Default => BvhBuildParams::very_fast_build(),
         Quality::High => BvhBuildParams::medium_build(),
     };
-    BvhBuildParams { pre_split: false, max_prims_per_leaf: max_leaf.min(MAX_LEAF), ..base }
+    // To the kernels a node and a primitive are the same work
+    let (max_prims_per_leaf, collapse_traversal_cost) = (max_leaf.min(MAX_LEAF), 1.0);
+    BvhBuildParams { pre_split: false, max_prims_per_leaf, collapse_traversal_cost, ..base }
 }
 
 /// Whether more than about a thousand boxes are one and the same. The builder joins pairs of nearest neighbours, of which
@@ -82,134 +69,34 @@ fn many_coincide(bounds: &[Bounds]) -> bool {
     keys.chunk_by(|a, b| a == b).any(|same| same.len() * step > MOST && same.len() >= 8)
 }
 
-fn leaf(first: u32, count: u32) -> u32 {
-    LEAF | (count - 1) << LEAF_COUNT_SHIFT | (first & LEAF_FIRST_MASK)
-}
-
-impl Tree {
-    /// Turns child pairs into records, in the order of a walk from the root. None when a leaf is too large.
-    fn from_obvhs(bvh: &Bvh2) -> Option<Self> {
-        let root = bvh.nodes.first()?;
-        let order = bvh.primitive_indices.clone();
-        if root.is_leaf() {
-            let fits = root.prim_count <= MAX_LEAF;
-            return fits.then(|| Self {
-                order,
-                root: leaf(root.first_index, root.prim_count),
-                ..Self::default()
-            });
-        }
-        let mut tree = Self { order, root: 0, ..Self::default() };
-        let area = |node: &obvhs::bvh2::node::Bvh2Node| f64::from(node.aabb().half_area());
-        let (whole, mut cost) = (area(root).max(f64::MIN_POSITIVE), 0.0);
-        // Left child pairs still to write: index in `bvh`, where the reference goes, depth.
-        let mut open = vec![(root.first_index as usize, None, 1)];
-        while let Some((pair, parent, depth)) = open.pop() {
-            let here = tree.nodes.len();
-            tree.depth = tree.depth.max(depth);
-            tree.nodes.push(Node::default());
-            if let Some((node, second)) = parent {
-                let node: &mut Node = &mut tree.nodes[node];
-                *(if second { &mut node.child1 } else { &mut node.child0 }) = here as u32;
-            }
-            for second in [false, true] {
-                let child = bvh.nodes.get(pair + usize::from(second))?;
-                let (min, max) = (child.aabb().min.into(), child.aabb().max.into());
-                let node = &mut tree.nodes[here];
-                let reference = if second {
-                    (node.min1, node.max1) = (min, max);
-                    &mut node.child1
-                } else {
-                    (node.min0, node.max0) = (min, max);
-                    &mut node.child0
-                };
-                cost += area(child) / whole * f64::from(child.prim_count.max(1));
-                if !child.is_leaf() {
-                    open.push((child.first_index as usize, Some((here, second)), depth + 1));
-                } else if child.prim_count <= MAX_LEAF {
-                    *reference = leaf(child.first_index, child.prim_count);
-                } else {
-                    return None;
-                }
-            }
-        }
-        tree.cost = (1.0 + cost) as f32;
-        Some(tree)
-    }
-
-    /// The same tree in an array that already holds `nodes` nodes; references of leaves stay as they are.
-    pub fn shift_nodes(&mut self, nodes: u32) {
-        self.shift(nodes, 0);
-    }
-
-    /// The same tree in arrays that already hold `nodes` nodes and `primitives` primitives.
-    pub fn shift(&mut self, nodes: u32, primitives: u32) {
-        let shift = |reference: &mut u32| {
-            if *reference != NONE {
-                *reference += if *reference & LEAF == 0 { nodes } else { primitives };
-            }
-        };
-        shift(&mut self.root);
-        for node in &mut self.nodes {
-            shift(&mut node.child0);
-            shift(&mut node.child1);
-        }
-    }
-}
-
-/// A tree split in halves by position: its depth is the least possible, whatever the boxes are.
-fn balanced(boxes: &[Boxed], max_leaf: u32) -> Tree {
+/// A binary tree split in halves by position: its depth is the least possible, whatever the boxes are.
+fn balanced(boxes: &[Boxed], max_leaf: u32) -> Bvh2 {
     let center = |i: u32| boxes[i as usize].0.min + boxes[i as usize].0.max;
-    let mut tree = Tree { order: (0..boxes.len() as u32).collect(), ..Tree::default() };
-    let mut order = std::mem::take(&mut tree.order);
-    let bounds_of = |range: &[u32]| {
-        range.iter().fold(Bounds::default(), |mut all, &i| {
-            all.add(boxes[i as usize].0.min);
-            all.add(boxes[i as usize].0.max);
-            all
-        })
-    };
-    if boxes.len() as u32 <= max_leaf {
-        return Tree { root: leaf(0, boxes.len() as u32), order, ..tree };
-    }
-    let mut open = vec![(0, boxes.len(), None, 1)];
-    while let Some((start, end, parent, depth)) = open.pop() {
-        let here = tree.nodes.len();
-        tree.depth = tree.depth.max(depth);
-        tree.nodes.push(Node::default());
-        if let Some((node, second)) = parent {
-            let node: &mut Node = &mut tree.nodes[node];
-            *(if second { &mut node.child1 } else { &mut node.child0 }) = here as u32;
-        }
+    let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+    let mut nodes = vec![Bvh2Node::default()];
+    // Ranges of `order` that still need their node
+    let mut open = vec![(0, 0, boxes.len())];
+    while let Some((here, start, end)) = open.pop() {
         let part = &mut order[start..end];
-        let size = part.iter().fold(Bounds::default(), |mut all, &i| {
-            all.add(center(i));
-            all
-        });
-        let axis = largest_axis(size.max - size.min);
+        let aabb = part.iter().fold(Aabb::empty(), |all, &i| all.union(&boxes[i as usize].aabb()));
+        let count = part.len() as u32;
+        if count <= max_leaf {
+            nodes[here] = Bvh2Node::new(aabb, count, start as u32);
+            continue;
+        }
+        let mut centers = Bounds::default();
+        part.iter().for_each(|&i| centers.add(center(i)));
+        let axis = largest_axis(centers.max - centers.min);
         let half = part.len() / 2;
         part.select_nth_unstable_by(half, |&a, &b| {
             center(a)[axis].total_cmp(&center(b)[axis]).then(a.cmp(&b))
         });
-        for (second, (from, to)) in [(start, start + half), (start + half, end)].into_iter().enumerate() {
-            let (bounds, count) = (bounds_of(&order[from..to]), (to - from) as u32);
-            let node = &mut tree.nodes[here];
-            let reference = if second == 1 {
-                (node.min1, node.max1) = (bounds.min.into(), bounds.max.into());
-                &mut node.child1
-            } else {
-                (node.min0, node.max0) = (bounds.min.into(), bounds.max.into());
-                &mut node.child0
-            };
-            if count <= max_leaf {
-                *reference = leaf(from as u32, count);
-            } else {
-                open.push((from, to, Some((here, second == 1)), depth + 1));
-            }
-        }
+        nodes[here] = Bvh2Node::new(aabb, 0, nodes.len() as u32);
+        open.push((nodes.len(), start, start + half));
+        open.push((nodes.len() + 1, start + half, end));
+        nodes.extend([Bvh2Node::default(); 2]);
     }
-    tree.order = order;
-    tree
+    Bvh2 { nodes, primitive_indices: order, ..Bvh2::default() }
 }
 
 fn largest_axis(v: Vec3) -> usize {
@@ -224,14 +111,16 @@ fn largest_axis(v: Vec3) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::wide::child_box;
     use super::*;
+    use crate::layout::{LEAF, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, NONE};
     use proptest::prelude::*;
 
-    /// Walks a tree: every primitive once, every child inside the box that its parent gives it, depth as stated.
+    /// Walks a tree: every primitive once and inside every box on the way to it, stack entries as stated.
     fn check(tree: &Tree, bounds: &[Bounds], max_leaf: u32) {
-        let mut seen = vec![0; bounds.len()];
-        let mut deepest = 0;
-        let mut open = vec![(tree.root, Bounds { min: Vec3::NEG_INFINITY, max: Vec3::INFINITY }, 0)];
+        let everything = Bounds { min: Vec3::NEG_INFINITY, max: Vec3::INFINITY };
+        let (mut seen, mut deepest) = (vec![0; bounds.len()], 0);
+        let mut open = vec![(tree.root, everything, 0)];
         while let Some((reference, outer, depth)) = open.pop() {
             deepest = deepest.max(depth);
             if reference & LEAF != 0 {
@@ -241,17 +130,21 @@ mod tests {
                     let primitive = tree.order[((reference & LEAF_FIRST_MASK) + i) as usize] as usize;
                     seen[primitive] += 1;
                     let b = bounds[primitive];
-                    assert!(b.min.cmpge(outer.min).all() && b.max.cmple(outer.max).all());
+                    assert!(
+                        b.min.cmpge(outer.min).all() && b.max.cmple(outer.max).all(),
+                        "{b:?} in {outer:?}"
+                    );
                 }
                 continue;
             }
             let node = tree.nodes[reference as usize];
-            for (child, min, max) in
-                [(node.child0, node.min0, node.max0), (node.child1, node.min1, node.max1)]
-            {
-                let inner = Bounds { min: min.into(), max: max.into() };
-                assert!(inner.min.cmpge(outer.min).all() && inner.max.cmple(outer.max).all());
-                open.push((child, inner, depth + 1));
+            let children = (0..4).filter(|&i| node.children[i] != NONE);
+            let others = children.clone().count() as u32 - 1;
+            for i in children {
+                // Boxes are rounded against their own parent: a primitive is in all of them, one box not in another
+                let inner = child_box(&node, i);
+                let both = Bounds { min: inner.min.max(outer.min), max: inner.max.min(outer.max) };
+                open.push((node.children[i], both, depth + others));
             }
         }
         assert!(seen.iter().all(|&n| n == 1), "{seen:?}");
@@ -278,9 +171,10 @@ mod tests {
         fn trees_are_whole(bounds in boxes(), max_leaf in 1..=MAX_LEAF) {
             check(&build(bounds.clone(), max_leaf, Quality::Default), &bounds, max_leaf);
             let boxed: Vec<Boxed> = bounds.iter().copied().map(Boxed).collect();
-            let tree = balanced(&boxed, max_leaf);
+            let tree = Tree::widened(&balanced(&boxed, max_leaf)).unwrap();
             check(&tree, &bounds, max_leaf);
-            prop_assert!(tree.depth <= (bounds.len() as f32).log2().ceil() as u32);
+            // A node goes down one level at least, and leaves three children open at most
+            prop_assert!(tree.depth <= 3 * (bounds.len() as f32).log2().ceil() as u32);
         }
     }
 

@@ -6,6 +6,7 @@
 use super::Prepared;
 use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
+use super::wide;
 use crate::layout::{
     INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
     LEAF_INSTANCE, NONE, Triangle, Vertex,
@@ -15,7 +16,7 @@ use crate::{Error, Result};
 use glam::{Affine3A, Mat3A, Vec2, Vec3};
 
 /// Most triangles a leaf holds.
-const TRIANGLES_A_LEAF: u32 = 8;
+const TRIANGLES_A_LEAF: u32 = 4;
 
 /// Where a thing that may shine went: for the table of lights.
 pub(super) struct Placed {
@@ -153,28 +154,23 @@ fn build_instance_tree(
     }
     let mut tree = bvh::build(tops.iter().map(|(_, bounds)| *bounds).collect(), 1, Quality::High);
     // A leaf holds one instance: name it by its index.
-    let name = |reference: &mut u32| {
+    for reference in wide::references(&mut tree.root, &mut tree.nodes) {
         if *reference & LEAF != 0 && *reference != NONE {
             let place = (*reference & LEAF_FIRST_MASK) as usize;
             *reference = LEAF | LEAF_INSTANCE | tops[tree.order[place] as usize].0;
         }
-    };
-    name(&mut tree.root);
-    for node in &mut tree.nodes {
-        name(&mut node.child0);
-        name(&mut node.child1);
     }
-    tree.shift_nodes(out.nodes.len() as u32);
+    tree.shift(out.nodes.len() as u32, 0);
     out.stack_entries = stack_entries(tree.depth, Some(deepest));
     out.root = tree.root;
     out.nodes.append(&mut tree.nodes);
     check_stack(out.stack_entries)
 }
 
-/// What `geometry/traverse.glsl` keeps: the mark of the end, an entry for each inner node down the first tree, and for a
-/// second tree the mark of its end and its inner nodes. One more is written, but not kept, at every step.
+/// What `geometry/traverse.glsl` keeps: the mark of the end, the open children down the first tree, and for a second tree
+/// the mark of its end and its open children.
 fn stack_entries(first_depth: u32, second_depth: Option<u32>) -> u32 {
-    1 + first_depth + second_depth.map_or(0, |depth| 1 + depth) + 1
+    1 + first_depth + second_depth.map_or(0, |depth| 1 + depth)
 }
 
 fn check_stack(entries: u32) -> Result<()> {
@@ -218,18 +214,11 @@ impl Prepared {
     /// Nodes and triangles are items of one buffer, nodes first: leaves count from there.
     fn put_triangles_after_nodes(&mut self) {
         let nodes = self.nodes.len() as u32;
-        let shift = |reference: &mut u32| {
+        let roots = self.instances.iter_mut().map(|instance| &mut instance.root);
+        for reference in wide::references(&mut self.root, &mut self.nodes).chain(roots) {
             if *reference & LEAF != 0 && *reference & LEAF_INSTANCE == 0 {
                 *reference += nodes;
             }
-        };
-        shift(&mut self.root);
-        for instance in &mut self.instances {
-            shift(&mut instance.root);
-        }
-        for node in &mut self.nodes {
-            shift(&mut node.child0);
-            shift(&mut node.child1);
         }
     }
 

@@ -12,10 +12,12 @@ mod lights;
 mod materials;
 mod textures;
 mod variant;
+mod wide;
 
 pub use bounds::Bounds;
 pub(crate) use environment::rows as environment_rows;
 pub use variant::{Stage, defines, stack_size};
+pub use wide::Tree;
 
 use crate::Result;
 use crate::layout::{
@@ -66,7 +68,7 @@ pub struct Prepared {
     pub depth_exponent: i32,
     /// Bounds of everything.
     pub bounds: Bounds,
-    /// Surface area cost of the trees, by triangles (see [`bvh::Tree::cost`]); of the largest.
+    /// Surface area cost of the trees, by triangles (see [`Tree::cost`]); of the largest.
     pub bvh_cost: f32,
     /// Seconds that building the trees took. Not part of the bytes that must repeat.
     pub bvh_seconds: Seconds,

@@ -1,7 +1,7 @@
 //! The uniform block: what stays the same during a slice.
 
 use super::plan::{Slice, Tiles};
-use crate::layout::Frame;
+use crate::layout::{Frame, ROUNDS_A_STEP};
 use crate::prepare::{self, Prepared};
 use crate::scene::{Scene, Value};
 use glam::Vec3;
@@ -35,7 +35,7 @@ pub(super) fn of_scene(scene: &Scene, prepared: &Prepared, threads: u32) -> Fram
         max_depth: render.max_depth,
         diffuse_bounces: render.diffuse_bounces.unwrap_or(u32::MAX),
         root: prepared.root,
-        step_limit: STEP_LIMIT,
+        step_limit: step_limit(prepared),
         light_count: prepared.lights.len() as u32,
         environment_chance: prepared.environment_chance,
         firefly_clamp: render.firefly_clamp.unwrap_or(0.0),
@@ -57,9 +57,13 @@ pub(super) fn of_scene(scene: &Scene, prepared: &Prepared, threads: u32) -> Fram
     frame
 }
 
-/// Steps of a ray in one dispatch. Mesa before 25.0 leaves all loops of a subgroup after 65,535 rounds: at worst the up to
-/// 16 lanes of a subgroup take turns in the inner loop of a traversal, and its outer loop takes as many rounds as one lane.
-const STEP_LIMIT: u32 = 65_000 / 17;
+/// Steps of a ray in one dispatch. Mesa before 25.0 leaves all loops of a subgroup after 65,535 rounds. In a tree over
+/// instances the up to 16 lanes of a subgroup take turns, at worst, in the inner loop of a traversal; its outer loop takes as
+/// many rounds as one lane.
+fn step_limit(prepared: &Prepared) -> u32 {
+    const ROUNDS: u32 = 65_000;
+    ROUNDS / if prepared.features.instances { 16 * ROUNDS_A_STEP + 1 } else { ROUNDS_A_STEP + 1 }
+}
 
 /// The block of a slice.
 pub(super) fn of_slice(scene: &Frame, slice: &Slice, band: (u32, u32)) -> Frame {

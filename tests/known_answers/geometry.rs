@@ -455,7 +455,7 @@ fn a_thin_scene_far_away_is_seen() {
 #[test]
 fn a_hundred_thousand_coincident_triangles_look_like_one() {
     let with = |copies: usize, instanced: bool| {
-        // Few rays: each takes more than a hundred thousand steps, and kernels stop rays after 12,000
+        // Few rays: each takes more than a hundred thousand steps, and kernels stop rays after 13,000
         let mut s = scene(4, 4, 1);
         s.camera = look(Vec3::new(0.0, 0.5, 3.0), Vec3::ZERO, 60.0);
         s.render.max_depth = 2;
