@@ -68,10 +68,10 @@ fn evaluate(backend: Backend, points: &[Word], threads: u32) -> dapple::Result<V
     let bindings = gpu.bindings(
         &layout,
         &[
-            ("frame", &gpu.upload("frame", &[bytemuck::bytes_of(&frame)])?),
-            ("points", &gpu.upload("points", &[bytemuck::cast_slice(points)])?),
-            ("textures", &gpu.upload("textures", &[bytemuck::cast_slice(&prepared.textures)])?),
-            ("texels", &gpu.upload("texels", &[bytemuck::cast_slice(&prepared.texels)])?),
+            ("frame", &gpu.upload("frame", bytemuck::bytes_of(&frame))?),
+            ("points", &gpu.upload("points", bytemuck::cast_slice(points))?),
+            ("textures", &gpu.upload("textures", bytemuck::cast_slice(&prepared.textures))?),
+            ("texels", &gpu.upload("texels", bytemuck::cast_slice(&prepared.texels))?),
             ("values", &values),
         ],
     )?;

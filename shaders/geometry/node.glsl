@@ -47,12 +47,14 @@ OpenChildren node_open(Node node, TreeRay ray, float t_max)
     uvec3 near = mix(node.low, node.high, ray.backward);
     uvec3 far = mix(node.high, node.low, ray.backward);
     vec4 enter = larger(larger(byte_values(near.x) * steps.x + from.x, byte_values(near.y) * steps.y + from.y),
-                        larger(byte_values(near.z) * steps.z + from.z, vec4(0.0)));
+                        larger(vec4(0.0), byte_values(near.z) * steps.z + from.z));
     vec4 leave = smaller(smaller(byte_values(far.x) * steps.x + to.x, byte_values(far.y) * steps.y + to.y),
-                         smaller(byte_values(far.z) * steps.z + to.z, vec4(t_max)));
-    uvec4 child = node.children;
+                         smaller(vec4(t_max), byte_values(far.z) * steps.z + to.z));
+    uvec4 code = uvec4(node.children << 24, node.children << 16, node.children << 8, node.children);
+    uvec4 child = (code & 0xf0000000u) | (node.base + ((code >> 24) & CHILD_OFFSET_MASK));
+    // Every node has two children at least
     bvec4 open = lessThanEqual(enter, leave);
-    open = bvec4(open.x, open.y, open.z && child.z != NONE, open.w && child.w != NONE);
+    open = bvec4(open.x, open.y, open.z && code.z < 0xff000000u, open.w && code.w < 0xff000000u);
     vec4 t = mix(vec4(FAR), enter, open);
     uint count = uint(open.x) + uint(open.y) + uint(open.z) + uint(open.w);
     in_order(t.x, child.x, t.y, child.y);

@@ -21,8 +21,8 @@ Vertex vertex_fetch(uint i) { return vertex_unpack(fetch_vertices(i * VERTEX_WOR
 Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 origin, vec3 direction)
 {
     Surface s;
-    uint w = index * TRIANGLE_WORDS;
-    Triangle triangle = triangle_unpack(fetch_tree(w), fetch_tree(w + 1u), fetch_tree(w + 2u), fetch_tree(w + 3u));
+    uint w = index * ITEM_WORDS;
+    Triangle triangle = triangle_unpack(fetch_tree(w), fetch_tree(w + 1u), fetch_tree(w + 2u));
     vec3 o = to_world ? object_point(instance, origin) : origin;
     vec3 d = to_world ? object_vector(instance, direction) : direction;
     float t;
@@ -39,10 +39,11 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec2 uv1 = turned ? vec2(1.0) : vec2(1.0, 0.0);
     vec2 uv2 = turned ? vec2(1.0, 0.0) : vec2(1.0);
     vec3 normal = geometric;
-    if (triangle.vertices.x != NONE) {
-        Vertex a = vertex_fetch(triangle.vertices.x);
-        Vertex b = vertex_fetch(triangle.vertices.y);
-        Vertex c = vertex_fetch(triangle.vertices.z);
+    if (instance.first_face != NONE) {
+        Face face = face_unpack(fetch_faces((instance.first_face + triangle.primitive) * FACE_WORDS));
+        Vertex a = vertex_fetch(face.vertices.x);
+        Vertex b = vertex_fetch(face.vertices.y);
+        Vertex c = vertex_fetch(face.vertices.z);
         if (instance.default_uv == 0u) {
             uv0 = vec2(a.u, a.v);
             uv1 = vec2(b.u, b.v);
@@ -98,16 +99,16 @@ Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 dire
 #ifdef HAS_INSTANCES
     uint owner = instance;
     if (triangle != NONE) {
-        uint baked = fetch_tree(triangle * TRIANGLE_WORDS).w;
+        uint baked = fetch_tree(triangle * ITEM_WORDS).w;
         if (baked != NONE) owner = baked;
     }
     Instance place = instance_fetch(owner);
 #if defined(HAS_SPHERES) || defined(HAS_DISKS)
     if (triangle == NONE) return quadric_surface(place, t, origin, direction);
 #endif
-    return triangle_surface(triangle, place, place.in_world == 0u, origin, direction);
+    return triangle_surface(triangle, place, place.kind != INSTANCE_SOUP, origin, direction);
 #else
-    Instance place = instance_fetch(fetch_tree(triangle * TRIANGLE_WORDS).w);
+    Instance place = instance_fetch(fetch_tree(triangle * ITEM_WORDS).w);
     return triangle_surface(triangle, place, false, origin, direction);
 #endif
 }

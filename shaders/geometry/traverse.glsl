@@ -41,7 +41,7 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
 #ifdef HAS_INSTANCES
     if (walk.instance != NONE) {
         Instance entered = instance_fetch(walk.instance);
-        if (entered.in_world == 0u) ray = tree_ray(object_point(entered, origin), object_vector(entered, direction));
+        if (entered.kind != INSTANCE_SOUP) ray = tree_ray(object_point(entered, origin), object_vector(entered, direction));
     }
 #endif
 #endif
@@ -52,12 +52,12 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
         while (is_in_tree(walk.current) && steps < limit) {
             bool leaf = (walk.current & LEAF) != 0u;
             uint item = walk.current & LEAF_FIRST_MASK;
-            uvec4 w0 = fetch_tree(item * NODE_WORDS);
-            uvec4 w1 = fetch_tree(item * NODE_WORDS + 1u);
-            uvec4 w2 = fetch_tree(item * NODE_WORDS + 2u);
-            uvec4 w3 = fetch_tree(item * NODE_WORDS + 3u);
-            Node node = node_unpack(w0, w1, w2, w3);
-            Triangle triangle = triangle_unpack(w0, w1, w2, w3);
+            uint word = item * ITEM_WORDS;
+            uvec4 w0 = fetch_tree(word);
+            uvec4 w1 = fetch_tree(word + 1u);
+            uvec4 w2 = fetch_tree(word + 2u);
+            Node node = node_unpack(w0, w1, w2);
+            Triangle triangle = triangle_unpack(w0, w1, w2);
             OpenChildren children = node_open(node, ray, walk.hit.t);
             float t;
             vec2 bary;
@@ -94,9 +94,9 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
             walk.instance = NONE;
         }
         if (enters) {
-            uint index = walk.current & LEAF_FIRST_MASK;
+            uint index = fetch_tree((walk.current & LEAF_FIRST_MASK) * ITEM_WORDS).x;
             Instance entered = instance_fetch(index);
-            bool move = entered.in_world == 0u;
+            bool move = entered.kind != INSTANCE_SOUP;
             vec3 o = move ? object_point(entered, origin) : origin;
             vec3 d = move ? object_vector(entered, direction) : direction;
             float t = 0.0;

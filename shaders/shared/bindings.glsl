@@ -6,6 +6,7 @@ layout(std140, set = 0, binding = 0) uniform FrameBlock { Frame frame; };
 READ_WORDS(1, 33, Words_tree, words_tree, texels_tree, fetch_tree)
 READ_WRITE_WORDS(2, 34, Words_schedule, words_schedule, texels_schedule, fetch_schedule, store_schedule)
 READ_WORDS(3, 35, Words_instances, words_instances, texels_instances, fetch_instances)
+READ_WORDS(4, 36, Words_faces, words_faces, texels_faces, fetch_faces)
 READ_WORDS(5, 37, Words_vertices, words_vertices, texels_vertices, fetch_vertices)
 READ_WORDS(6, 38, Words_materials, words_materials, texels_materials, fetch_materials)
 READ_WORDS(7, 39, Words_textures, words_textures, texels_textures, fetch_textures)

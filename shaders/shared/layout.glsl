@@ -22,11 +22,15 @@ const uint COUNTER_PATHS = 16u; // Counters: lengths of the parts of the path qu
 const uint COUNTER_SHADOWS = 32u; // Counters: lengths of the parts of the shadow queue, of both halves.
 const uint COUNTERS = 48u; // Number of counters.
 const uint SCHEDULE_WORDS = 5u; // Words of what a kernel knows of a queue: where the workgroups of its parts begin, their lengths, half and groups.
-const uint LEAF = 2147483648u; // Bit of a reference: a leaf. Its other bits are the number of its primitives less one, and the first of them.
+const uint ITEM_WORDS = 3u; // Words of an item of the tree: a Node, a Triangle, or the number of an instance and nothing else.
+const uint LEAF = 2147483648u; // Bit of a reference: a leaf. Its other bits are the number of its primitives less one, and the first item of them.
 const uint LEAF_INSTANCE = 1073741824u; // Bit of a leaf reference: it is an instance.
-const uint LEAF_COUNT_SHIFT = 27u; // Where the number of primitives begins in a leaf reference.
-const uint LEAF_COUNT_MASK = 939524096u; // Bits of a leaf reference: the number of its primitives less one.
-const uint LEAF_FIRST_MASK = 134217727u; // Bits of a reference: the item of the tree, or the instance.
+const uint LEAF_COUNT_SHIFT = 28u; // Where the number of primitives begins in a leaf reference.
+const uint LEAF_COUNT_MASK = 805306368u; // Bits of a leaf reference: the number of its primitives less one.
+const uint LEAF_FIRST_MASK = 268435455u; // Bits of a reference: the item of the tree.
+const uint CHILD_NONE = 255u; // Byte of a node where it has no child.
+const uint CHILD_OFFSET_MASK = 15u; // Bits of the byte of a child: its first item, counted from the first item of all children.
+const uint CHILD_MARK_SHIFT = 24u; // Places that the other bits of that byte move up to become those of a reference.
 const uint INSTANCE_MESH = 0u; // Instance kind: triangles in object space.
 const uint INSTANCE_SOUP = 1u; // Instance kind: all triangles that are placed once, in world space.
 const uint INSTANCE_SPHERE = 2u; // Instance kind: unit sphere.
@@ -104,21 +108,21 @@ struct Frame {
 struct Node {
     vec3 origin; // least corner of all children
     uint exponents; // exponents of the steps along x, y and z, a byte each
-    uvec4 children; // the children: a node, or LEAF with count and first primitive, or LEAF and LEAF_INSTANCE with an instance, or NONE
     uvec3 low; // least corners along x, y and z; a byte for each child
+    uint base; // first item of the children
     uvec3 high; // greatest corners along x, y and z; a byte for each child
-    uvec2 spare; // room
+    uint children; // a byte for each child: CHILD_NONE, or its first item counted from `base`, and the upper bits of its reference
 };
-const uint NODE_WORDS = 4u;
-Node node_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
+const uint NODE_WORDS = 3u;
+Node node_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
 {
     Node r;
     r.origin = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
     r.exponents = w0.w;
-    r.children = uvec4(w1.x, w1.y, w1.z, w1.w);
-    r.low = uvec3(w2.x, w2.y, w2.z);
-    r.high = uvec3(w2.w, w3.x, w3.y);
-    r.spare = uvec2(w3.z, w3.w);
+    r.low = uvec3(w1.x, w1.y, w1.z);
+    r.base = w1.w;
+    r.high = uvec3(w2.x, w2.y, w2.z);
+    r.children = w2.w;
     return r;
 }
 
@@ -129,11 +133,9 @@ struct Triangle {
     uint material; // its material, or NONE for that of the instance
     vec3 c; // third vertex
     uint primitive; // number of the triangle within its mesh
-    uvec3 vertices; // three Vertex records, or NONE thrice for a flat triangle without uv
-    uint spare; // room
 };
-const uint TRIANGLE_WORDS = 4u;
-Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
+const uint TRIANGLE_WORDS = 3u;
+Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
 {
     Triangle r;
     r.a = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
@@ -142,8 +144,19 @@ Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
     r.material = w1.w;
     r.c = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
     r.primitive = w2.w;
-    r.vertices = uvec3(w3.x, w3.y, w3.z);
-    r.spare = w3.w;
+    return r;
+}
+
+struct Face {
+    uvec3 vertices; // three Vertex records
+    uint spare; // room
+};
+const uint FACE_WORDS = 1u;
+Face face_unpack(uvec4 w0)
+{
+    Face r;
+    r.vertices = uvec3(w0.x, w0.y, w0.z);
+    r.spare = w0.w;
     return r;
 }
 
@@ -177,7 +190,7 @@ struct Instance {
     vec4 world_row2; // row 2 of world from object
     float handedness; // 1, or -1 when the map to the world mirrors
     uint light_stride; // 1 when each triangle is a light of its own, 0 when they are one light together
-    uint in_world; // 1 when geometry is already in world space
+    uint first_face; // Face of its first triangle, or NONE for flat triangles without uv
     uint default_uv; // 1 when the mesh has no uv: then it is (0,0), (1,0), (1,1) on every triangle
 };
 const uint INSTANCE_WORDS = 8u;
@@ -196,7 +209,7 @@ Instance instance_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4
     r.world_row2 = uintBitsToFloat(uvec4(w6.x, w6.y, w6.z, w6.w));
     r.handedness = uintBitsToFloat(w7.x);
     r.light_stride = w7.y;
-    r.in_world = w7.z;
+    r.first_face = w7.z;
     r.default_uv = w7.w;
     return r;
 }

@@ -100,14 +100,13 @@ impl Gpu {
     /// # Errors
     ///
     /// As [`Gpu::buffer`], or when copying fails.
-    pub fn upload(&self, name: &str, parts: &[&[u8]]) -> Result<Arc<Buffer>> {
-        let bytes = parts.iter().map(|part| part.len() as u64).sum();
-        let buffer = self.buffer(name, bytes, Place::Device)?;
-        if buffer.write_parts(parts) {
+    pub fn upload(&self, name: &str, words: &[u8]) -> Result<Arc<Buffer>> {
+        let buffer = self.buffer(name, words.len() as u64, Place::Device)?;
+        if buffer.write(words) {
             return Ok(buffer);
         }
-        let staging = self.buffer(&format!("{name} (staging)"), bytes, Place::Upload)?;
-        if !staging.write_parts(parts) {
+        let staging = self.buffer(&format!("{name} (staging)"), words.len() as u64, Place::Upload)?;
+        if !staging.write(words) {
             return Err(Error::device(format!("the driver does not map memory for buffer `{name}`")));
         }
         self.run(&[Command::Copy { from: &staging, to: &buffer, bytes: buffer.bytes }])?;
@@ -139,23 +138,15 @@ impl Buffer {
     /// Writes to the start of the buffer; false when the host does not see it, or it is shorter. The device must not be
     /// using it.
     pub fn write(&self, bytes: &[u8]) -> bool {
-        self.write_parts(&[bytes])
-    }
-
-    /// As [`Self::write`], one part after the other.
-    fn write_parts(&self, parts: &[&[u8]]) -> bool {
-        if parts.iter().map(|part| part.len() as u64).sum::<u64>() > self.bytes {
-            return false;
-        }
         let mut allocation = self.allocation();
-        let Some(mut memory) = allocation.as_mut().and_then(Allocation::mapped_slice_mut) else {
+        let memory = allocation.as_mut().and_then(Allocation::mapped_slice_mut);
+        let own = usize::try_from(self.bytes).unwrap_or(usize::MAX);
+        let Some(target) =
+            memory.and_then(|memory| memory.get_mut(..own)).and_then(|memory| memory.get_mut(..bytes.len()))
+        else {
             return false;
         };
-        for part in parts {
-            let Some((target, rest)) = memory.split_at_mut_checked(part.len()) else { return false };
-            target.copy_from_slice(part);
-            memory = rest;
-        }
+        target.copy_from_slice(bytes);
         true
     }
 

@@ -53,6 +53,7 @@ pub const BINDINGS: &[Binding] = &[
     row(1, "tree", BindingKind::Read),
     row(2, "schedule", BindingKind::ReadWrite),
     row(3, "instances", BindingKind::Read),
+    row(4, "faces", BindingKind::Read),
     row(5, "vertices", BindingKind::Read),
     row(6, "materials", BindingKind::Read),
     row(7, "textures", BindingKind::Read),

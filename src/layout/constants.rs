@@ -55,16 +55,24 @@ constants! {
     COUNTERS = 48;
     /// Words of what a kernel knows of a queue: where the workgroups of its parts begin, their lengths, half and groups.
     SCHEDULE_WORDS = 5;
-    /// Bit of a reference: a leaf. Its other bits are the number of its primitives less one, and the first of them.
+    /// Words of an item of the tree: a Node, a Triangle, or the number of an instance and nothing else.
+    ITEM_WORDS = 3;
+    /// Bit of a reference: a leaf. Its other bits are the number of its primitives less one, and the first item of them.
     LEAF = 1 << 31;
     /// Bit of a leaf reference: it is an instance.
     LEAF_INSTANCE = 1 << 30;
     /// Where the number of primitives begins in a leaf reference.
-    LEAF_COUNT_SHIFT = 27;
+    LEAF_COUNT_SHIFT = 28;
     /// Bits of a leaf reference: the number of its primitives less one.
-    LEAF_COUNT_MASK = 7 << LEAF_COUNT_SHIFT;
-    /// Bits of a reference: the item of the tree, or the instance.
-    LEAF_FIRST_MASK = (1 << 27) - 1;
+    LEAF_COUNT_MASK = 3 << LEAF_COUNT_SHIFT;
+    /// Bits of a reference: the item of the tree.
+    LEAF_FIRST_MASK = (1 << LEAF_COUNT_SHIFT) - 1;
+    /// Byte of a node where it has no child.
+    CHILD_NONE = 255;
+    /// Bits of the byte of a child: its first item, counted from the first item of all children.
+    CHILD_OFFSET_MASK = 15;
+    /// Places that the other bits of that byte move up to become those of a reference.
+    CHILD_MARK_SHIFT = 24;
     /// Instance kind: triangles in object space.
     INSTANCE_MESH = 0;
     /// Instance kind: all triangles that are placed once, in world space.

@@ -16,6 +16,9 @@ pub use records::*;
 
 /// Bytes of the word that kernels read.
 pub const WORD_BYTES: u64 = 16;
+/// An item of the buffer of trees: a [`Node`], a [`Triangle`], or the number of an instance in the first place.
+pub type Item = [[u32; 4]; ITEM_WORDS as usize];
+const _: () = assert!(Node::WORDS == ITEM_WORDS && Triangle::WORDS == ITEM_WORDS);
 /// log₂ of the unit of the sums of albedo and normal.
 pub const AOV_EXPONENT: i32 = -20;
 

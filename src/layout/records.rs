@@ -171,23 +171,24 @@ records! {
     }
 
     /// Up to four children of a BVH node, with their boxes in bytes: corner = origin + byte · 2^(exponent − 127), rounded
-    /// outwards (Ylitie, Karras and Laine 2017, section 3, with four children in place of eight).
+    /// outwards (Ylitie, Karras and Laine 2017, section 3, with four children in place of eight). The items of all children,
+    /// nodes and primitives, lie one after another.
     struct Node {
         /// least corner of all children
         origin: [f32; 3],
         /// exponents of the steps along x, y and z, a byte each
         exponents: u32,
-        /// the children: a node, or LEAF with count and first primitive, or LEAF and LEAF_INSTANCE with an instance, or NONE
-        children: [u32; 4],
         /// least corners along x, y and z; a byte for each child
         low: [u32; 3],
+        /// first item of the children
+        base: u32,
         /// greatest corners along x, y and z; a byte for each child
         high: [u32; 3],
-        /// room
-        spare: [u32; 2],
+        /// a byte for each child: CHILD_NONE, or its first item counted from `base`, and the upper bits of its reference
+        children: u32,
     }
 
-    /// A triangle in the order of the tree. As many words as a [`Node`]: both are items of one buffer.
+    /// A triangle in the order of the tree. As many words as a [`Node`]: both are an [`Item`] of one buffer.
     struct Triangle {
         /// first vertex, in the space of its tree
         a: [f32; 3],
@@ -201,7 +202,11 @@ records! {
         c: [f32; 3],
         /// number of the triangle within its mesh
         primitive: u32,
-        /// three Vertex records, or NONE thrice for a flat triangle without uv
+    }
+
+    /// Where the shading data of a triangle are, in the order of its mesh.
+    struct Face {
+        /// three Vertex records
         vertices: [u32; 3],
         /// room
         spare: u32,
@@ -245,8 +250,8 @@ records! {
         handedness: f32,
         /// 1 when each triangle is a light of its own, 0 when they are one light together
         light_stride: u32,
-        /// 1 when geometry is already in world space
-        in_world: u32,
+        /// Face of its first triangle, or NONE for flat triangles without uv
+        first_face: u32,
         /// 1 when the mesh has no uv: then it is (0,0), (1,0), (1,1) on every triangle
         default_uv: u32,
     }

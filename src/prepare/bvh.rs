@@ -1,14 +1,14 @@
 //! Bounding volume hierarchies: built by `obvhs`, widened, and proven to fit the stack.
 
 use super::Bounds;
-use super::wide::Tree;
+use super::wide::{Leaves, Tree};
 use glam::Vec3;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2, node::Bvh2Node};
 use obvhs::{Boundable, BvhBuildParams};
 
-/// Most primitives of a leaf: what three bits hold.
-pub const MAX_LEAF: u32 = 8;
+/// Most primitives of a leaf: what two bits hold.
+pub const MAX_LEAF: u32 = 4;
 /// Stack entries that a tree may need. Two levels of trees and their marks fit the stack.
 pub const MAX_DEPTH: u32 = 76;
 
@@ -30,7 +30,7 @@ impl Boundable for Boxed {
 }
 
 /// Builds a tree over boxes with at most `max_leaf` (≤ [`MAX_LEAF`]) primitives a leaf.
-pub fn build(bounds: Vec<Bounds>, max_leaf: u32, quality: Quality) -> Tree {
+pub fn build(bounds: Vec<Bounds>, max_leaf: u32, quality: Quality, leaves: &Leaves) -> Tree {
     if bounds.is_empty() {
         return Tree::empty();
     }
@@ -38,13 +38,13 @@ pub fn build(bounds: Vec<Bounds>, max_leaf: u32, quality: Quality) -> Tree {
     let boxes: Vec<Boxed> = bounds.into_iter().map(Boxed).collect();
     if !coincident {
         let binary = build_bvh2(&boxes, params(max_leaf, quality), &mut std::time::Duration::default());
-        match Tree::widened(&binary) {
+        match Tree::widened(&binary, leaves) {
             Some(tree) if tree.depth <= MAX_DEPTH => return tree,
             _ => {}
         }
     }
     // Every leaf is small enough: its size is chosen below
-    Tree::widened(&balanced(&boxes, max_leaf)).unwrap_or_else(Tree::empty)
+    Tree::widened(&balanced(&boxes, max_leaf), leaves).unwrap_or_else(Tree::empty)
 }
 
 fn params(max_leaf: u32, quality: Quality) -> BvhBuildParams {
@@ -111,10 +111,18 @@ fn largest_axis(v: Vec3) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::wide::child_box;
+    use super::super::wide::{child, child_box};
     use super::*;
-    use crate::layout::{LEAF, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, NONE};
+    use crate::layout::{Item, LEAF, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, Node};
     use proptest::prelude::*;
+
+    /// Items that are the number of their primitive.
+    const NUMBERS: Leaves = Leaves { first_item: FIRST, mark: LEAF, item: &|i| [[i; 4]; 3] };
+    const FIRST: u32 = 1000;
+
+    fn item(tree: &Tree, reference: u32) -> Item {
+        tree.items[((reference & LEAF_FIRST_MASK) - FIRST) as usize]
+    }
 
     /// Walks a tree: every primitive once and inside every box on the way to it, stack entries as stated.
     fn check(tree: &Tree, bounds: &[Bounds], max_leaf: u32) {
@@ -124,10 +132,10 @@ mod tests {
         while let Some((reference, outer, depth)) = open.pop() {
             deepest = deepest.max(depth);
             if reference & LEAF != 0 {
-                let count = (reference >> LEAF_COUNT_SHIFT & 7) + 1;
+                let count = (reference >> LEAF_COUNT_SHIFT & 3) + 1;
                 assert!(count <= max_leaf);
                 for i in 0..count {
-                    let primitive = tree.order[((reference & LEAF_FIRST_MASK) + i) as usize] as usize;
+                    let primitive = item(tree, reference + i)[0][0] as usize;
                     seen[primitive] += 1;
                     let b = bounds[primitive];
                     assert!(
@@ -137,14 +145,14 @@ mod tests {
                 }
                 continue;
             }
-            let node = tree.nodes[reference as usize];
-            let children = (0..4).filter(|&i| node.children[i] != NONE);
+            let node: Node = bytemuck::cast(item(tree, reference));
+            let children = (0..4).filter_map(|i| Some((i, child(&node, i)?)));
             let others = children.clone().count() as u32 - 1;
-            for i in children {
+            for (i, reference) in children {
                 // Boxes are rounded against their own parent: a primitive is in all of them, one box not in another
                 let inner = child_box(&node, i);
                 let both = Bounds { min: inner.min.max(outer.min), max: inner.max.min(outer.max) };
-                open.push((node.children[i], both, depth + others));
+                open.push((reference, both, depth + others));
             }
         }
         assert!(seen.iter().all(|&n| n == 1), "{seen:?}");
@@ -169,9 +177,9 @@ mod tests {
     proptest! {
         #[test]
         fn trees_are_whole(bounds in boxes(), max_leaf in 1..=MAX_LEAF) {
-            check(&build(bounds.clone(), max_leaf, Quality::Default), &bounds, max_leaf);
+            check(&build(bounds.clone(), max_leaf, Quality::Default, &NUMBERS), &bounds, max_leaf);
             let boxed: Vec<Boxed> = bounds.iter().copied().map(Boxed).collect();
-            let tree = Tree::widened(&balanced(&boxed, max_leaf)).unwrap();
+            let tree = Tree::widened(&balanced(&boxed, max_leaf), &NUMBERS).unwrap();
             check(&tree, &bounds, max_leaf);
             // A node goes down one level at least, and leaves three children open at most
             prop_assert!(tree.depth <= 3 * (bounds.len() as f32).log2().ceil() as u32);
@@ -181,7 +189,7 @@ mod tests {
     #[test]
     fn coincident_boxes_stay_within_the_stack() {
         let bounds = vec![Bounds { min: Vec3::ZERO, max: Vec3::ONE }; 20_000];
-        let tree = build(bounds.clone(), 4, Quality::Default);
+        let tree = build(bounds.clone(), 4, Quality::Default, &NUMBERS);
         assert!(tree.depth <= MAX_DEPTH);
         check(&tree, &bounds, 4);
     }
@@ -196,7 +204,7 @@ mod tests {
             .collect();
         let with = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| build(bounds.clone(), 4, Quality::Default))
+            pool.install(|| build(bounds.clone(), 4, Quality::Default, &NUMBERS))
         };
         let one = with(1);
         assert!(one == with(2) && one == with(7));

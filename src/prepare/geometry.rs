@@ -6,9 +6,9 @@
 use super::Prepared;
 use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
-use super::wide;
+use super::wide::Leaves;
 use crate::layout::{
-    INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
+    Face, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
     LEAF_INSTANCE, NONE, Triangle, Vertex,
 };
 use crate::scene::{Mesh, Scene, Shape, ShapeKind};
@@ -36,7 +36,16 @@ pub(super) enum Source {
     Mesh(usize),
 }
 
-/// Fills nodes, triangles, vertices, instances, root, bounds.
+/// A mesh that is placed several times.
+#[derive(Clone, Copy)]
+struct MeshTree {
+    root: u32,
+    depth: u32,
+    bounds: Bounds,
+    first_face: u32,
+}
+
+/// Fills tree, faces, vertices, instances, root, bounds.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> {
     let mut placed = Vec::new();
     let mut uses = vec![0_u32; scene.meshes.len()];
@@ -53,11 +62,12 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         };
         let instance = out.push_instance(kind, world_from_object, shape.material.index() as u32);
         if let ShapeKind::Quad { .. } = shape.kind {
-            push_triangles(&quad_mesh(), &world_from_object, Some(instance), out, &mut soup);
+            let face = push_triangles(&quad_mesh(), &world_from_object, Some(instance), out, &mut soup);
+            out.instances[instance as usize].first_face = face;
         }
         placed.push(Placed { instance, source: Source::Shape(i), world_from_object });
     }
-    let mut trees: Vec<Option<(u32, u32, Bounds)>> = vec![None; scene.meshes.len()];
+    let mut trees: Vec<Option<MeshTree>> = vec![None; scene.meshes.len()];
     for (i, instance) in scene.instances.iter().enumerate() {
         let (mesh, map) = (&scene.meshes[instance.mesh], instance.world_from_object);
         let once = uses[instance.mesh.index()] == 1;
@@ -66,34 +76,39 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         out.instances[index as usize].light_stride = 1;
         out.instances[index as usize].default_uv = u32::from(mesh.uvs.is_empty());
         if once {
-            push_triangles(mesh, &map, Some(index), out, &mut soup);
+            out.instances[index as usize].first_face =
+                push_triangles(mesh, &map, Some(index), out, &mut soup);
         } else {
-            let tree = &mut trees[instance.mesh.index()];
-            if tree.is_none() {
-                let mut own = Vec::new();
-                push_triangles(mesh, &Affine3A::IDENTITY, None, out, &mut own);
-                let bounds = bounds_of(&own);
-                let (root, depth) = out.push_tree(own)?;
-                *tree = Some((root, depth, bounds));
-            }
-            out.instances[index as usize].root = tree.map_or(NONE, |(root, ..)| root);
+            let tree = match trees[instance.mesh.index()] {
+                Some(tree) => tree,
+                None => *trees[instance.mesh.index()].insert(mesh_tree(mesh, out)?),
+            };
+            out.instances[index as usize].root = tree.root;
+            out.instances[index as usize].first_face = tree.first_face;
         }
         placed.push(Placed { instance: index, source: Source::Mesh(i), world_from_object: map });
     }
     build_top(scene, soup, &trees, out)?;
-    out.put_triangles_after_nodes();
     Ok(placed)
+}
+
+fn mesh_tree(mesh: &Mesh, out: &mut Prepared) -> Result<MeshTree> {
+    let mut triangles = Vec::new();
+    let first_face = push_triangles(mesh, &Affine3A::IDENTITY, None, out, &mut triangles);
+    let bounds = bounds_of(&triangles);
+    let (root, depth) = out.push_tree(triangles)?;
+    Ok(MeshTree { root, depth, bounds, first_face })
 }
 
 /// The soup's tree, and the tree over instances when there is more than the soup.
 fn build_top(
     scene: &Scene,
     soup: Vec<Triangle>,
-    trees: &[Option<(u32, u32, Bounds)>],
+    trees: &[Option<MeshTree>],
     out: &mut Prepared,
 ) -> Result<()> {
     let mut tops: Vec<(u32, Bounds)> = Vec::new();
-    let mut deepest = trees.iter().flatten().map(|(_, depth, _)| *depth).max().unwrap_or(0);
+    let mut deepest = trees.iter().flatten().map(|tree| tree.depth).max().unwrap_or(0);
     let soup_bounds = bounds_of(&soup);
     let soup_root = if soup.is_empty() {
         None
@@ -112,10 +127,10 @@ fn build_top(
     }
     let meshes = scene.instances.iter().zip(scene.shapes.len()..);
     for (instance, index) in meshes {
-        if let Some((root, _, bounds)) = trees[instance.mesh.index()]
-            && root != NONE
+        if let Some(tree) = &trees[instance.mesh.index()]
+            && tree.root != NONE
         {
-            tops.push((index as u32, transformed(&bounds, &instance.world_from_object)));
+            tops.push((index as u32, transformed(&tree.bounds, &instance.world_from_object)));
         }
     }
     for (_, bounds) in &tops {
@@ -152,18 +167,17 @@ fn build_instance_tree(
         out.instances[index as usize].root = root;
         tops.push((index, soup_bounds));
     }
-    let mut tree = bvh::build(tops.iter().map(|(_, bounds)| *bounds).collect(), 1, Quality::High);
-    // A leaf holds one instance: name it by its index.
-    for reference in wide::references(&mut tree.root, &mut tree.nodes) {
-        if *reference & LEAF != 0 && *reference != NONE {
-            let place = (*reference & LEAF_FIRST_MASK) as usize;
-            *reference = LEAF | LEAF_INSTANCE | tops[tree.order[place] as usize].0;
-        }
-    }
-    tree.shift(out.nodes.len() as u32, 0);
+    let bounds = tops.iter().map(|(_, bounds)| *bounds).collect();
+    let leaves = Leaves {
+        first_item: out.first_item(tops.len())?,
+        mark: LEAF | LEAF_INSTANCE,
+        item: &|i| [[tops[i as usize].0, 0, 0, 0], [0; 4], [0; 4]],
+    };
+    let mut tree = bvh::build(bounds, 1, Quality::High, &leaves);
     out.stack_entries = stack_entries(tree.depth, Some(deepest));
     out.root = tree.root;
-    out.nodes.append(&mut tree.nodes);
+    out.node_count += tree.nodes;
+    out.tree.append(&mut tree.items);
     check_stack(out.stack_entries)
 }
 
@@ -205,55 +219,58 @@ impl Prepared {
             world_row2: world[2],
             handedness: if world_from_object.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 },
             light_stride: 0,
-            in_world: u32::from(kind == INSTANCE_SOUP),
+            first_face: NONE,
             default_uv: 0,
         });
         self.instances.len() as u32 - 1
     }
 
-    /// Nodes and triangles are items of one buffer, nodes first: leaves count from there.
-    fn put_triangles_after_nodes(&mut self) {
-        let nodes = self.nodes.len() as u32;
-        let roots = self.instances.iter_mut().map(|instance| &mut instance.root);
-        for reference in wide::references(&mut self.root, &mut self.nodes).chain(roots) {
-            if *reference & LEAF != 0 && *reference & LEAF_INSTANCE == 0 {
-                *reference += nodes;
-            }
+    /// Where the tree of some more primitives begins.
+    fn first_item(&self, primitives: usize) -> Result<u32> {
+        let first = self.tree.len();
+        // A tree has fewer nodes than primitives
+        if first + 2 * primitives > LEAF_FIRST_MASK as usize {
+            let most = LEAF_FIRST_MASK / 2;
+            return Err(
+                Error::scene(format!("more than {most} triangles and instances")).help("use instances")
+            );
         }
+        Ok(first as u32)
     }
 
-    /// Builds the tree of some triangles and puts them in its order. Gives root and depth.
+    /// Builds the tree of some triangles. Gives root and depth.
     fn push_tree(&mut self, triangles: Vec<Triangle>) -> Result<(u32, u32)> {
-        let (nodes, first) = (self.nodes.len(), self.triangles.len());
-        // A tree has fewer nodes than triangles, and nodes and triangles are counted together
-        if nodes + first + 2 * triangles.len() > LEAF_FIRST_MASK as usize {
-            return Err(Error::scene(format!("more than {LEAF_FIRST_MASK} triangles")).help("use instances"));
-        }
+        let leaves = Leaves {
+            first_item: self.first_item(triangles.len())?,
+            mark: LEAF,
+            item: &|i| bytemuck::cast(triangles[i as usize]),
+        };
         let start = std::time::Instant::now();
-        let mut tree =
-            bvh::build(triangles.iter().map(triangle_bounds).collect(), TRIANGLES_A_LEAF, Quality::Default);
+        let bounds = triangles.iter().map(triangle_bounds).collect();
+        let mut tree = bvh::build(bounds, TRIANGLES_A_LEAF, Quality::Default, &leaves);
         self.bvh_seconds.0 += start.elapsed().as_secs_f64();
-        tree.shift(nodes as u32, first as u32);
-        self.nodes.append(&mut tree.nodes);
-        self.triangles.extend(tree.order.iter().map(|&i| triangles[i as usize]));
+        self.triangle_count += triangles.len();
+        self.node_count += tree.nodes;
+        self.tree.append(&mut tree.items);
         self.bvh_cost = self.bvh_cost.max(tree.cost);
         Ok((tree.root, tree.depth))
     }
 }
 
-/// The triangles of a mesh as records, with their vertices. `instance` is set for what is put into world
-/// space; a map that mirrors turns the triangles round, so that they stay counter-clockwise from outside.
+/// The triangles of a mesh as records, with their vertices. Gives the first of their faces, or NONE. `instance` is set for
+/// what is put into world space; a map that mirrors turns the triangles round, so that they stay counter-clockwise from
+/// outside.
 fn push_triangles(
     mesh: &Mesh,
     map: &Affine3A,
     instance: Option<u32>,
     out: &mut Prepared,
     triangles: &mut Vec<Triangle>,
-) {
+) -> u32 {
     let mirrored = map.matrix3.determinant() < 0.0;
     let normal_map = normal_map(map);
     let has_vertices = !mesh.normals.is_empty() || !mesh.uvs.is_empty();
-    let first_vertex = out.vertices.len() as u32;
+    let (first_face, first_vertex) = (out.faces.len() as u32, out.vertices.len() as u32);
     if has_vertices {
         out.vertices.extend((0..mesh.positions.len()).map(|i| {
             let normal = mesh.normals.get(i).map_or(Vec3::ZERO, |n| normal_map * *n);
@@ -266,7 +283,9 @@ fn push_triangles(
     for (i, corners) in mesh.triangles.iter().enumerate() {
         let [a, b, c] = if mirrored { [corners[0], corners[2], corners[1]] } else { *corners };
         let position = |v: u32| map.transform_point3(mesh.positions[v as usize]).to_array();
-        let vertices = if has_vertices { [a, b, c].map(|v| first_vertex + v) } else { [NONE; 3] };
+        if has_vertices {
+            out.faces.push(Face { vertices: [a, b, c].map(|v| first_vertex + v), spare: 0 });
+        }
         triangles.push(Triangle {
             a: position(a),
             instance: instance.unwrap_or(NONE),
@@ -274,10 +293,9 @@ fn push_triangles(
             material: materials.get(i).copied().unwrap_or(NONE),
             c: position(c),
             primitive: i as u32,
-            vertices,
-            spare: 0,
         });
     }
+    if has_vertices { first_face } else { NONE }
 }
 
 /// The map of normals, up to a factor that is the same for all: normals are interpolated before they get unit length, so

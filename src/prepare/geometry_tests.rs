@@ -1,7 +1,8 @@
 //! The stack that `prepare` promises is enough for every way through the trees.
 
+use super::super::wide::child;
 use super::super::{Prepared, prepare};
-use crate::layout::{LEAF, LEAF_FIRST_MASK, LEAF_INSTANCE, NONE};
+use crate::layout::{LEAF, LEAF_FIRST_MASK, LEAF_INSTANCE, NONE, Node};
 use crate::scene::{Instance, Material, Mesh, Scene, Surface, Value};
 use glam::{Affine3A, Vec3};
 use proptest::prelude::*;
@@ -11,13 +12,15 @@ fn written(prepared: &Prepared, reference: u32, kept: u32) -> u32 {
     if reference == NONE || reference & LEAF != 0 && reference & LEAF_INSTANCE == 0 {
         return kept;
     }
+    let item = prepared.tree[(reference & LEAF_FIRST_MASK) as usize];
     if reference & LEAF != 0 {
-        let instance = &prepared.instances[(reference & LEAF_FIRST_MASK) as usize];
+        let instance = &prepared.instances[item[0][0] as usize];
         return if instance.root == NONE { kept } else { written(prepared, instance.root, kept + 1) };
     }
-    let children = prepared.nodes[reference as usize].children;
-    let others = children.iter().filter(|&&child| child != NONE).count() as u32 - 1;
-    children.iter().map(|&child| written(prepared, child, kept + others)).max().unwrap_or(kept)
+    let node: Node = bytemuck::cast(item);
+    let children = (0..4).filter_map(|i| child(&node, i));
+    let others = children.clone().count() as u32 - 1;
+    children.map(|child| written(prepared, child, kept + others)).max().unwrap_or(kept)
 }
 
 /// `copies` instances of a mesh of `triangles` triangles, and with `soup` a mesh that is placed once.

@@ -17,12 +17,11 @@ mod wide;
 pub use bounds::Bounds;
 pub(crate) use environment::rows as environment_rows;
 pub use variant::{Stage, defines, stack_size};
-pub use wide::Tree;
+pub use wide::{Leaves, Tree};
 
 use crate::Result;
 use crate::layout::{
-    EnvironmentCell, Instance, LIGHT_DISTANT, LIGHT_POINT, LIGHT_SPOT, Light, Material, Node, Triangle,
-    Vertex,
+    EnvironmentCell, Face, Instance, Item, LIGHT_DISTANT, LIGHT_POINT, LIGHT_SPOT, Light, Material, Vertex,
 };
 use crate::scene::{Scene, Surface, Value};
 use glam::Vec3;
@@ -30,10 +29,14 @@ use glam::Vec3;
 /// Everything that the kernels need of a scene, as plain records in the order of the bindings.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Prepared {
-    /// Nodes of all trees. References to nodes and triangles count items of one array: all nodes, then all triangles.
-    pub nodes: Vec<Node>,
-    /// Triangles of all trees, each tree's in its own order.
-    pub triangles: Vec<Triangle>,
+    /// Nodes, triangles and the numbers of instances: the items of all trees.
+    pub tree: Vec<Item>,
+    /// How many items are nodes.
+    pub node_count: usize,
+    /// How many items are triangles.
+    pub triangle_count: usize,
+    /// Vertices of triangles, each mesh's in its own order.
+    pub faces: Vec<Face>,
     /// Shading data of vertices.
     pub vertices: Vec<Vertex>,
     /// Shapes and meshes in the world.
@@ -54,7 +57,7 @@ pub struct Prepared {
     pub environment_texture: u32,
     /// Chance of choosing the environment when a light is chosen.
     pub environment_chance: f32,
-    /// Where rays start: a reference as in [`Node`], or NONE in an empty scene.
+    /// Where rays start: a reference, or NONE in an empty scene.
     pub root: u32,
     /// Entries of the traversal stack that no ray exceeds.
     pub stack_entries: u32,
@@ -78,8 +81,8 @@ impl Prepared {
     /// Bytes of all records: what the scene takes on the device, but for the rounding of its memory.
     pub fn bytes(&self) -> u64 {
         let sizes = [
-            size_of_val(self.nodes.as_slice()),
-            size_of_val(self.triangles.as_slice()),
+            size_of_val(self.tree.as_slice()),
+            size_of_val(self.faces.as_slice()),
             size_of_val(self.vertices.as_slice()),
             size_of_val(self.instances.as_slice()),
             size_of_val(self.materials.as_slice()),

@@ -1,21 +1,31 @@
 //! Binary trees to records with up to four children, whose boxes are rounded outwards to bytes.
 
-use crate::layout::{LEAF, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, LEAF_INSTANCE, NONE, Node};
+use crate::layout::{CHILD_MARK_SHIFT, CHILD_NONE, Item, LEAF_COUNT_SHIFT, NONE, Node};
 use obvhs::bvh2::{Bvh2, node::Bvh2Node};
 
 /// A tree over boxes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tree {
-    /// Inner nodes; references count from 0 in this tree.
-    pub nodes: Vec<Node>,
-    /// Primitive at each place of the leaves.
-    pub order: Vec<u32>,
-    /// Where to start: a reference as in [`Node`]; NONE for no primitives.
+    /// Nodes, and what the leaves hold.
+    pub items: Vec<Item>,
+    /// How many of the items are nodes.
+    pub nodes: usize,
+    /// Where to start: a reference; NONE for no primitives.
     pub root: u32,
     /// Stack entries that a ray may need: children less one, summed along the way down where that is most.
     pub depth: u32,
     /// Expected cost of a random ray by the surface area heuristic: a node costs 1, a primitive 1.
     pub cost: f32,
+}
+
+/// What becomes of the primitives of a tree.
+pub struct Leaves<'a> {
+    /// Place of the tree's first item in the buffer of trees.
+    pub first_item: u32,
+    /// Bits of the references to leaves.
+    pub mark: u32,
+    /// The item of a primitive.
+    pub item: &'a dyn Fn(u32) -> Item,
 }
 
 impl Tree {
@@ -26,62 +36,57 @@ impl Tree {
 
     /// Joins up to three levels of a binary tree into nodes of up to four children, in the order of a walk from the root.
     /// None when a leaf has more primitives than a reference can count.
-    pub fn widened(binary: &Bvh2) -> Option<Self> {
+    pub fn widened(binary: &Bvh2, leaves: &Leaves) -> Option<Self> {
         let root = binary.nodes.first()?;
-        let mut tree = Self { order: binary.primitive_indices.clone(), ..Self::default() };
+        let mut tree = Self { root: leaves.first_item, ..Self::default() };
         if root.is_leaf() {
-            tree.root = leaf(root)?;
+            tree.root |= tree.push_leaf(root, binary, leaves)?;
             return Some(tree);
         }
         let whole = area(root).max(f64::MIN_POSITIVE);
         let mut cost = 1.0;
-        let mut open = vec![Open { index: 0, parent: None, above: 0 }];
+        tree.items.push(Item::default());
+        let mut open = vec![Open { index: 0, place: 0, above: 0 }];
         while let Some(inner) = open.pop() {
-            let here = tree.nodes.len();
-            if let Some((node, child)) = inner.parent {
-                tree.nodes[node].children[child] = here as u32;
-            }
             let children = Children::of(binary, inner.index)?;
             let children = children.as_slice();
             let above = inner.above + children.len() as u32 - 1;
             tree.depth = tree.depth.max(above);
             let mut node = with_boxes(binary.nodes.get(inner.index as usize)?, binary, children);
-            for (i, &child) in children.iter().enumerate() {
-                let inner = &binary.nodes[child as usize];
-                cost += area(inner) / whole * f64::from(inner.prim_count.max(1));
-                if inner.is_leaf() {
-                    node.children[i] = leaf(inner)?;
+            let base = tree.items.len();
+            node.base = leaves.first_item + base as u32;
+            let mut bytes = [CHILD_NONE; 4];
+            for (byte, &index) in bytes.iter_mut().zip(children) {
+                let child = &binary.nodes[index as usize];
+                cost += area(child) / whole * f64::from(child.prim_count.max(1));
+                let place = tree.items.len();
+                let mark = if child.is_leaf() {
+                    tree.push_leaf(child, binary, leaves)?
                 } else {
-                    open.push(Open { index: child, parent: Some((here, i)), above });
-                }
+                    tree.items.push(Item::default());
+                    open.push(Open { index, place, above });
+                    0
+                };
+                *byte = mark >> CHILD_MARK_SHIFT | (place - base) as u32;
             }
-            tree.nodes.push(node);
+            node.children = u32::from_le_bytes(bytes.map(|byte| byte as u8));
+            tree.items[inner.place] = bytemuck::cast(node);
+            tree.nodes += 1;
         }
         tree.cost = cost as f32;
         Some(tree)
     }
 
-    /// The same tree in arrays that already hold `nodes` nodes and `primitives` primitives.
-    pub fn shift(&mut self, nodes: u32, primitives: u32) {
-        for reference in references(&mut self.root, &mut self.nodes) {
-            if *reference & LEAF == 0 {
-                *reference += nodes;
-            } else if *reference & LEAF_INSTANCE == 0 {
-                *reference += primitives;
-            }
+    /// Puts the primitives of a leaf, if a reference can count them, and gives the upper bits of the reference.
+    fn push_leaf(&mut self, leaf: &Bvh2Node, binary: &Bvh2, leaves: &Leaves) -> Option<u32> {
+        if !(1..=super::bvh::MAX_LEAF).contains(&leaf.prim_count) {
+            return None;
         }
+        let first = leaf.first_index as usize;
+        let primitives = binary.primitive_indices.get(first..first + leaf.prim_count as usize)?;
+        self.items.extend(primitives.iter().map(|&primitive| (leaves.item)(primitive)));
+        Some(leaves.mark | (leaf.prim_count - 1) << LEAF_COUNT_SHIFT)
     }
-}
-
-/// All references of a tree; those of instances, and NONE for no child, among them.
-pub(super) fn references<'a>(root: &'a mut u32, nodes: &'a mut [Node]) -> impl Iterator<Item = &'a mut u32> {
-    std::iter::once(root).chain(nodes.iter_mut().flat_map(|node| &mut node.children))
-}
-
-/// The reference of a leaf, when it can count its primitives.
-fn leaf(node: &Bvh2Node) -> Option<u32> {
-    let count = (1..=super::bvh::MAX_LEAF).contains(&node.prim_count);
-    count.then(|| LEAF | (node.prim_count - 1) << LEAF_COUNT_SHIFT | (node.first_index & LEAF_FIRST_MASK))
 }
 
 fn area(node: &Bvh2Node) -> f64 {
@@ -91,8 +96,8 @@ fn area(node: &Bvh2Node) -> f64 {
 /// A binary node that is to become a wide one.
 struct Open {
     index: u32,
-    /// The node and the child of it that refer to this one.
-    parent: Option<(usize, usize)>,
+    /// The item that it becomes.
+    place: usize,
     /// Stack entries of the nodes on the way.
     above: u32,
 }
@@ -130,10 +135,10 @@ impl Children {
     }
 }
 
-/// A node without references: the boxes of its children.
+/// A node with the boxes of its children only.
 fn with_boxes(parent: &Bvh2Node, binary: &Bvh2, children: &[u32]) -> Node {
     let (low, high) = (parent.aabb().min.to_array(), parent.aabb().max.to_array());
-    let mut node = Node { children: [NONE; 4], ..Node::default() };
+    let mut node = Node::default();
     for axis in 0..3 {
         let exponent = step_exponent(f64::from(high[axis]) - f64::from(low[axis]));
         let step = 2f64.powi(exponent as i32 - 127);
@@ -157,6 +162,16 @@ fn step_exponent(extent: f64) -> u32 {
     let fits = |exponent: &i32| 255.0 * 2f64.powi(exponent - 127) >= extent;
     let guess = (extent / 255.0).log2().ceil().clamp(-126.0, 127.0) as i32 + 127;
     (guess - 1..=guess + 1).filter(|e| (1..=254).contains(e)).find(fits).unwrap_or(254) as u32
+}
+
+/// The reference of a child, as kernels see it.
+#[cfg(test)]
+pub(super) fn child(node: &Node, child: usize) -> Option<u32> {
+    use crate::layout::CHILD_OFFSET_MASK;
+    let byte = node.children >> (8 * child) & 255;
+    let reference =
+        (byte & !CHILD_OFFSET_MASK) << CHILD_MARK_SHIFT | (node.base + (byte & CHILD_OFFSET_MASK));
+    (byte != CHILD_NONE).then_some(reference)
 }
 
 /// The box of a child, as kernels see it.

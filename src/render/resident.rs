@@ -14,19 +14,14 @@ impl Resident {
     /// Puts a prepared scene on the device. It is taken apart on the way, so that host and device do not both hold it.
     pub fn upload(gpu: &Gpu, prepared: &mut Prepared) -> Result<Self> {
         let mut buffers = Vec::new();
-        let (nodes, triangles) =
-            (std::mem::take(&mut prepared.nodes), std::mem::take(&mut prepared.triangles));
-        if nodes.len() + triangles.len() > 0 {
-            let parts = [bytemuck::cast_slice(&nodes), bytemuck::cast_slice(&triangles)];
-            buffers.push(("tree", gpu.upload("tree", &parts)?));
-        }
-        drop((nodes, triangles));
         let mut put = |name: &'static str, bytes: &[u8]| -> Result<()> {
             if !bytes.is_empty() {
-                buffers.push((name, gpu.upload(name, &[bytes])?));
+                buffers.push((name, gpu.upload(name, bytes)?));
             }
             Ok(())
         };
+        put("tree", bytemuck::cast_slice(&std::mem::take(&mut prepared.tree)))?;
+        put("faces", bytemuck::cast_slice(&std::mem::take(&mut prepared.faces)))?;
         put("instances", bytemuck::cast_slice(&prepared.instances))?;
         put("vertices", bytemuck::cast_slice(&std::mem::take(&mut prepared.vertices)))?;
         put("materials", bytemuck::cast_slice(&prepared.materials))?;

@@ -107,8 +107,8 @@ impl Probe {
     ) -> dapple::Result<Vec<Word>> {
         let gpu = &self.gpu;
         let (layout, pipeline) = self.kernel(glsl, backend)?;
-        let block = gpu.upload("frame", &[bytemuck::bytes_of(frame)])?;
-        let points = gpu.upload("points", &[bytemuck::cast_slice(inputs)])?;
+        let block = gpu.upload("frame", bytemuck::bytes_of(frame))?;
+        let points = gpu.upload("points", bytemuck::cast_slice(inputs))?;
         let bytes = outputs as u64 * 16;
         let values = gpu.buffer("values", bytes, Place::Device)?;
         let host = gpu.buffer("values (host)", bytes, Place::Readback)?;

@@ -178,7 +178,7 @@ impl<'a> Bench<'a> {
         let scene = scene_of(args, name)?;
         let spp = args.spp.unwrap_or(scene.render.spp);
         let mut prepared = prepare::prepare(&scene)?;
-        let triangles = prepared.triangles.len();
+        let triangles = prepared.triangle_count;
         let (bvh_seconds, cost) = (prepared.bvh_seconds.0, prepared.bvh_cost);
         gpu.take_peak_bytes();
         let kernels = Kernels::new(gpu, &mut self.compiler()?, &scene, &prepared, options.backend)?;
