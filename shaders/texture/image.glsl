@@ -46,8 +46,12 @@ vec4 texel(ImageTexture image, uint format, uint x, uint y)
 // A texel index outside 0..n to one inside; `outside` is set where the picture is black.
 uint wrap_index(int i, int n, uint mode, inout bool outside)
 {
+    // Division is not exact on every device: the quotient may be off by one
     int turns = int(floor(float(i) / float(n)));
-    int rest = clamp(i - turns * n, 0, n - 1);
+    int rest = i - turns * n;
+    int off = rest < 0 ? -1 : rest >= n ? 1 : 0;
+    turns += off;
+    rest = clamp(rest - off * n, 0, n - 1);
     if (mode == WRAP_REPEAT) return uint(rest);
     if (mode == WRAP_MIRROR) return uint((turns & 1) == 0 ? rest : n - 1 - rest);
     outside = outside || (mode == WRAP_BLACK && (i < 0 || i >= n));

@@ -1,6 +1,6 @@
 //! Choosing a device and opening it.
 
-use super::instance::{Instance, no_driver};
+use super::instance::{Instance, door, no_driver};
 use super::{check, limits};
 use crate::{Error, Result};
 use ash::vk;
@@ -123,9 +123,11 @@ impl Gpu {
         let queues =
             [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
         let create = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
+        let door = door();
         // SAFETY: `physical` is of this instance; `create` lives until the call returns.
         let device =
             check(unsafe { instance.raw.create_device(physical, &create, None) }, "open the device")?;
+        drop(door);
         // SAFETY: the device was made with one queue of this family.
         let queue = unsafe { device.get_device_queue(queue_family, 0) };
         let allocator = Allocator::new(&AllocatorCreateDesc {
@@ -171,6 +173,7 @@ impl Gpu {
 
 impl Drop for Inner {
     fn drop(&mut self) {
+        let _door = door();
         // SAFETY: everything made from the device holds an `Arc` of this, so nothing is in use; the allocator goes
         // first because it frees memory of the device, and is never touched again.
         unsafe {
@@ -182,6 +185,7 @@ impl Drop for Inner {
 }
 
 fn candidates(instance: &Instance) -> Result<Vec<(vk::PhysicalDevice, DeviceInfo)>> {
+    let _door = door();
     // SAFETY: the instance is alive.
     let physical = check(unsafe { instance.raw.enumerate_physical_devices() }, "list the devices")?;
     Ok(physical.into_iter().enumerate().map(|(i, p)| (p, describe(instance, p, i))).collect())

@@ -6,9 +6,18 @@ use ash::{ext, vk};
 use std::ffi::{CStr, OsStr, c_char, c_void};
 use std::io::Write as _;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
+
+/// Held while an instance or a device is made or destroyed. Threads that do so at once stop for ever in NVIDIA's driver
+/// 580.159.
+static DOOR: Mutex<()> = Mutex::new(());
+
+/// Waits until no other thread makes or destroys an instance or a device.
+pub(super) fn door() -> MutexGuard<'static, ()> {
+    DOOR.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Messages that no work took as its error.
 static LATE: AtomicUsize = AtomicUsize::new(0);
@@ -92,11 +101,13 @@ impl Instance {
         if validation {
             info = info.push_next(&mut listener);
         }
+        let door = door();
         // SAFETY: all pointers in `info` live until the call returns.
         let raw = unsafe { entry.create_instance(&info, None) }.map_err(|code| match code {
             vk::Result::ERROR_INCOMPATIBLE_DRIVER => no_driver(),
             code => Error::device(format!("create the Vulkan instance: Vulkan says {code:?}")),
         })?;
+        drop(door);
         let mut instance = Self { raw, messages, debug: None, entry };
         if validation {
             instance.debug = Some(listen(&instance)?);
@@ -107,6 +118,7 @@ impl Instance {
 
 impl Drop for Instance {
     fn drop(&mut self) {
+        let _door = door();
         // SAFETY: devices hold an `Arc` of this instance, so none is left; both objects are ours.
         unsafe {
             if let Some((debug, messenger)) = &self.debug {
