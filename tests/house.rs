@@ -22,7 +22,7 @@ const RUST_ROOMS: &[(&str, &[&str])] = &[
     ("prepare", &["scene", "layout"]),
     ("shader", &[]),
     ("gpu", &["layout", "shader"]),
-    ("film", &["scene"]),
+    ("film", &["scene", "layout"]),
     ("render", &["prepare", "shader", "gpu", "film", "layout", "scene"]),
     // The program: its own modules, and the public items of the library as `dapple::`.
     ("main", &["cli"]),

@@ -31,7 +31,13 @@ fn three(v: [f64; 4]) -> [f64; 3] {
 
 fn samples(light: &Light, from: [f32; 3], count: usize) -> Vec<Sample> {
     let glsl = "
-        #define LIGHT_KINDS 127
+        #define HAS_LIGHT_POINT
+        #define HAS_LIGHT_SPOT
+        #define HAS_LIGHT_DISTANT
+        #define HAS_LIGHT_SPHERE
+        #define HAS_LIGHT_QUAD
+        #define HAS_LIGHT_DISK
+        #define HAS_LIGHT_TRIANGLE
         #include \"light/light.glsl\"
         Light probe_light() {
             return light_unpack(fetch_points(0u), fetch_points(1u), fetch_points(2u), fetch_points(3u),

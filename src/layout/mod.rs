@@ -16,8 +16,6 @@ pub use records::*;
 
 /// Bytes of the word that kernels read.
 pub const WORD_BYTES: u64 = 16;
-/// log₂ of the unit of the sums of albedo and normal.
-pub const AOV_EXPONENT: i32 = -20;
 
 /// A record in device memory: plain data, a whole number of words.
 pub trait Record: bytemuck::Pod {

@@ -130,7 +130,7 @@ records! {
         max_depth: u32,
         /// most scattering events that are neither mirror nor clear glass
         diffuse_bounces: u32,
-        /// slots of the slice: 64 · tile_count · sample_count
+        /// slots of the slice: WORKGROUP · tile_count · sample_count
         slot_count: u32,
         /// entry of the tree that rays start at
         root: u32,
@@ -255,7 +255,7 @@ records! {
     struct Material {
         /// MATERIAL_… kind
         kind: u32,
-        /// FRESNEL_… rule of a conductor; 1 = thin for a dielectric
+        /// FRESNEL_… rule of a conductor, or DIELECTRIC_… mode
         mode: u32,
         /// index of refraction of a dielectric
         ior: f32,
@@ -307,7 +307,7 @@ records! {
         uv_offset: [f32; 2],
         /// factor on the value
         scale: f32,
-        /// FLAG_… bits: filter, wrap, channel, invert
+        /// FLAG_… bits, WRAP_… modes and CHANNEL_…
         flags: u32,
     }
 
