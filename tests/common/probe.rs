@@ -147,6 +147,11 @@ pub fn floats(x: f32, y: f32, z: f32, w: f32) -> Word {
     [x.to_bits(), y.to_bits(), z.to_bits(), w.to_bits()]
 }
 
+/// A vector with one spare lane.
+pub fn vector(v: [f32; 3]) -> Word {
+    floats(v[0], v[1], v[2], 0.0)
+}
+
 /// The four floats of a word.
 pub fn as_floats(word: Word) -> [f32; 4] {
     word.map(f32::from_bits)
