@@ -162,6 +162,11 @@ pub fn as_doubles(word: Word) -> [f64; 4] {
     word.map(|bits| f64::from(f32::from_bits(bits)))
 }
 
+/// The first three of four numbers.
+pub fn three(v: [f64; 4]) -> [f64; 3] {
+    [v[0], v[1], v[2]]
+}
+
 /// Distance of two floats in units in the last place; 0 and −0 are the same.
 pub fn ulps(a: f32, b: f32) -> u32 {
     let order = |x: f32| {
