@@ -57,7 +57,7 @@ const uint FRESNEL_NONE = 3u; // Conductor rule: the same at every angle.
 const uint LIGHT_POINT = 0u; // Light kind: point light.
 const uint LIGHT_SPOT = 1u; // Light kind: spot light.
 const uint LIGHT_DISTANT = 2u; // Light kind: parallel light.
-const uint LIGHT_SPHERE = 3u; // Light kind: sphere.
+const uint LIGHT_SPHERE = 3u; // Light kind: sphere or ellipsoid.
 const uint LIGHT_QUAD = 4u; // Light kind: rectangle or parallelogram.
 const uint LIGHT_DISK = 5u; // Light kind: disk; edges are its radii.
 const uint LIGHT_TRIANGLE = 6u; // Light kind: triangle of a mesh.
@@ -71,8 +71,8 @@ const uint WRAP_MIRROR = 2u; // Wrap mode: the picture and its mirror image.
 const uint WRAP_BLACK = 3u; // Wrap mode: zero.
 const uint WRAP_MASK = 3u; // Bits of the flags of an image texture: its wrap mode along u, from bit 0.
 const uint WRAP_V_SHIFT = 2u; // Position of the wrap mode along v in the flags of an image texture.
-const uint FLAG_NEAREST = 16u; // Flag of an image texture.
-const uint FLAG_INVERT = 32u; // Flag of an image texture.
+const uint FLAG_NEAREST = 16u; // Flag of an image texture: the nearest texel in place of bilinear filtering.
+const uint FLAG_INVERT = 32u; // Flag of an image texture: 1 less the colour.
 const uint CHANNEL_SHIFT = 8u; // Position of the channel in the flags of an image texture; nothing is above it.
 const uint CHANNEL_RGB = 0u; // Channel: all as they are.
 const uint CHANNEL_R = 1u; // Channel: red in all.
@@ -149,7 +149,7 @@ Node node_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
 
 struct Triangle {
     vec3 a; // first vertex, in the space of its tree
-    uint instance; // instance, when the tree is in world space; else unused
+    uint instance; // instance, when the tree is in world space; else NONE
     vec3 b; // second vertex
     uint material; // its material, or NONE for that of the instance
     vec3 c; // third vertex

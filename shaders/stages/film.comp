@@ -83,7 +83,7 @@ void store_pixel(uint pixel, PixelSums sums)
 
 void main()
 {
-    // A wave with parked rays is not finished: the host sends it round again.
+    // A wave with rays that wait is not finished: the host sends it round again.
     if (counters[COUNTER_WAITING_PATHS] + counters[COUNTER_WAITING_SHADOWS] != 0u) return;
     uint tile = interleaved_group();
     uint lane = gl_LocalInvocationIndex;

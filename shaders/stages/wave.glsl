@@ -38,7 +38,7 @@ struct Path {
 };
 
 const uint PATH_COVERED = 1u;     // the camera ray hit something
-const uint PATH_HAS_AOV = 2u;
+const uint PATH_HAS_AOV = 2u;     // its albedo, depth and normal are stored
 const uint PATH_WAITS = 4u;       // its shadow ray is too long for one dispatch
 const uint PATH_FLAGS_SHIFT = 2u * PATH_DEPTH_BITS;
 const uint PATH_DEPTH_MASK = (1u << PATH_DEPTH_BITS) - 1u;
@@ -59,7 +59,7 @@ void path_store(uint slot, Path p)
     store_paths(slot * PATH_WORDS + 1u, uvec4(floatBitsToUint(p.radiance), packed));
 }
 
-// What only glass changes.
+// What only glass changes, beside the key of the random numbers, which stays as the camera made it.
 void path_store_medium(uint slot, Path p)
 {
     store_paths(slot * PATH_WORDS + 2u, uvec4(p.medium, floatBitsToUint(p.eta_scale), p.key.pixel, p.key.index));
@@ -79,7 +79,7 @@ void ray_store(uint slot, WaveRay ray)
     store_rays(slot * RAY_WORDS + 1u, uvec4(floatBitsToUint(ray.direction), 0u));
 }
 
-// What `hits` holds in its last lane.
+// What `hits` holds in its last lane, and `shadows`: there, 0 is a ray that nobody has followed yet.
 const uint HIT_MISS = 0u;
 const uint HIT_SURFACE = 1u;
 const uint HIT_LONG = 2u;   // ran out of steps: waits for the kernel that can park it

@@ -125,7 +125,7 @@ constants! {
     LIGHT_SPOT = 1;
     /// Light kind: parallel light.
     LIGHT_DISTANT = 2;
-    /// Light kind: sphere.
+    /// Light kind: sphere or ellipsoid.
     LIGHT_SPHERE = 3;
     /// Light kind: rectangle or parallelogram.
     LIGHT_QUAD = 4;
@@ -153,9 +153,9 @@ constants! {
     WRAP_MASK = 3;
     /// Position of the wrap mode along v in the flags of an image texture.
     WRAP_V_SHIFT = 2;
-    /// Flag of an image texture.
+    /// Flag of an image texture: the nearest texel in place of bilinear filtering.
     FLAG_NEAREST = 16;
-    /// Flag of an image texture.
+    /// Flag of an image texture: 1 less the colour.
     FLAG_INVERT = 32;
     /// Position of the channel in the flags of an image texture; nothing is above it.
     CHANNEL_SHIFT = 8;

@@ -1,8 +1,8 @@
 //! The only definition of what host and kernels share: records, enum numbers, constants and bindings.
 //!
 //! [`layout_glsl`] and [`bindings_glsl`] write `shaders/shared/layout.glsl` and `shaders/shared/bindings.glsl`,
-//! which are committed; a test compares them. Every record is a whole number of 16-byte words, read as `uvec4`
-//! and unpacked with `uintBitsToFloat`, because a float format may flush small integers as denormals.
+//! which are committed; a test compares them. Every record is a whole number of 16-byte words. All but the uniform block are
+//! read as `uvec4` and unpacked with `uintBitsToFloat`, because a float format may flush small integers as denormals.
 
 mod bindings;
 mod constants;

@@ -1,4 +1,4 @@
-//! The records and constants that host and kernels share.
+//! The records that host and kernels share.
 
 use super::{Field, Record};
 
@@ -191,7 +191,7 @@ records! {
     struct Triangle {
         /// first vertex, in the space of its tree
         a: [f32; 3],
-        /// instance, when the tree is in world space; else unused
+        /// instance, when the tree is in world space; else NONE
         instance: u32,
         /// second vertex
         b: [f32; 3],
@@ -251,7 +251,7 @@ records! {
         default_uv: u32,
     }
 
-    /// A material. A texture field is a reference (see TextureRef in texture/), or NONE.
+    /// A material. A texture field is a reference, whose bits `prepare` and the code that it generates know, or NONE.
     struct Material {
         /// MATERIAL_… kind
         kind: u32,
