@@ -3,7 +3,7 @@
 #include "shared/bindings.glsl"
 #include "generated/probe.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = WORKGROUP) in;
 
 void main()
 {

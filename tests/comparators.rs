@@ -1,8 +1,11 @@
-//! The comparator itself: it must accept a reference with its own noise and reject pictures that are wrong.
+//! The comparators themselves: they must accept a reference with its own noise and counts that are fair, and reject what is
+//! wrong.
 
 mod common;
 
+use common::chi2;
 use common::compare::{Verdict, compare, relative_mse};
+use common::random::Random;
 use common::references::{Estimate, all, folder, present, rendered};
 use common::student::{critical_value, level_of_each, two_sided_tail};
 use dapple::film::{Film, Frame, write};
@@ -217,4 +220,47 @@ fn reads_the_means_and_variances_that_dapple_writes() {
     assert_eq!((read.width, read.height), (20, 16));
     assert_eq!(read.mean, Vec::from_iter(picture.rgb.iter().map(|v| v.map(f64::from))));
     assert_eq!(read.variance, Vec::from_iter(picture.variance.iter().map(|v| v.map(f64::from))));
+}
+
+#[test]
+fn chi_square_of_the_tables() {
+    // Abramowitz and Stegun, table 26.8, and closed forms for two and four degrees of freedom
+    for (statistic, dof, p) in [
+        (3.841_458_82, 1, 0.05),
+        (18.307_038_05, 10, 0.05),
+        (124.342_113_4, 100, 0.05),
+        (149.449_253, 100, 0.001),
+        (2.0, 2, f64::exp(-1.0)),
+        (6.0, 4, 4.0 * f64::exp(-3.0)),
+    ] {
+        let got = chi2::p_value(statistic, dof);
+        assert!((got - p).abs() < 1e-5 * p + 1e-7, "{statistic} {dof}: {got} not {p}");
+    }
+    assert!((chi2::p_value(1023.0, 1023) - 0.494).abs() < 0.002);
+}
+
+#[test]
+fn chi_square_refuses_what_is_wrong() {
+    let mut random = Random(11);
+    let mut counts = vec![0_u64; 64];
+    (0..64_000).for_each(|_| counts[(random.u32() >> 26) as usize] += 1);
+    chi2::accept(&[("fair".to_string(), chi2::test_uniform(&counts))]);
+    let refused = |counts: &[u64], expected: &[f64]| {
+        let p = chi2::test(counts, expected);
+        std::panic::catch_unwind(|| chi2::accept(&vec![("unfair".to_string(), p); 100])).is_err()
+    };
+    let fair = vec![1000.0; 64];
+    // A fifth of one cell in the next one; a slope; a cell that must stay empty
+    let mut moved = counts.clone();
+    moved[3] -= 200;
+    moved[4] += 200;
+    assert!(refused(&moved, &fair));
+    let slope: Vec<u64> = (0..64).map(|i| 900 + 200 * i / 63).collect();
+    assert!(refused(&slope, &fair));
+    let mut empty = fair.clone();
+    empty[0] = 0.0;
+    empty[1] = 2000.0;
+    assert!(refused(&counts, &empty));
+    assert!(std::panic::catch_unwind(|| chi2::accept(&[("nan".to_string(), f64::NAN)])).is_err());
+    assert!(std::panic::catch_unwind(|| chi2::accept(&[])).is_err());
 }

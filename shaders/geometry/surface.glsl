@@ -17,12 +17,17 @@ struct Surface {
 
 Vertex vertex_fetch(uint i) { return vertex_unpack(fetch_vertices(i * VERTEX_WORDS), fetch_vertices(i * VERTEX_WORDS + 1u)); }
 
+Triangle triangle_fetch(uint i)
+{
+    uint w = i * ITEM_WORDS;
+    return triangle_unpack(fetch_tree(w), fetch_tree(w + 1u), fetch_tree(w + 2u));
+}
+
 // A point on a triangle: `to_world` is true when the triangle is in object space.
 Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 origin, vec3 direction)
 {
     Surface s;
-    uint w = index * ITEM_WORDS;
-    Triangle triangle = triangle_unpack(fetch_tree(w), fetch_tree(w + 1u), fetch_tree(w + 2u));
+    Triangle triangle = triangle_fetch(index);
     vec3 o = to_world ? object_point(instance, origin) : origin;
     vec3 d = to_world ? object_vector(instance, direction) : direction;
     float t;
@@ -99,7 +104,7 @@ Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 dire
 #ifdef HAS_INSTANCES
     uint owner = instance;
     if (triangle != NONE) {
-        uint baked = fetch_tree(triangle * ITEM_WORDS).w;
+        uint baked = triangle_fetch(triangle).instance;
         if (baked != NONE) owner = baked;
     }
     Instance place = instance_fetch(owner);
@@ -108,7 +113,7 @@ Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 dire
 #endif
     return triangle_surface(triangle, place, place.kind != INSTANCE_SOUP, origin, direction);
 #else
-    Instance place = instance_fetch(fetch_tree(triangle * ITEM_WORDS).w);
+    Instance place = instance_fetch(triangle_fetch(triangle).instance);
     return triangle_surface(triangle, place, false, origin, direction);
 #endif
 }

@@ -1,35 +1,33 @@
 // The menu of lights, and the choice among them. Kinds that the scene does not use are left out by switches of the
-// variant: HAS_LIGHTS, HAS_ENVIRONMENT, and LIGHT_KINDS, a bit set of the kinds in the table.
+// variant: HAS_LIGHTS, HAS_ENVIRONMENT, and HAS_LIGHT_… for each kind in the table.
 #include "light/punctual.glsl"
 #include "light/sphere.glsl"
 #include "light/quad.glsl"
 #include "light/flat.glsl"
 #include "light/environment.glsl"
 
-#define HAS_LIGHT(bit) ((LIGHT_KINDS >> (bit)) & 1)
-
 LightSample light_sample_one(Light light, vec3 from, vec2 u01)
 {
     switch (light.kind) {
-#if HAS_LIGHT(0)
+#ifdef HAS_LIGHT_POINT
     case LIGHT_POINT: return point_sample(light, from);
 #endif
-#if HAS_LIGHT(1)
+#ifdef HAS_LIGHT_SPOT
     case LIGHT_SPOT: return spot_sample(light, from);
 #endif
-#if HAS_LIGHT(2)
+#ifdef HAS_LIGHT_DISTANT
     case LIGHT_DISTANT: return distant_sample(light);
 #endif
-#if HAS_LIGHT(3)
+#ifdef HAS_LIGHT_SPHERE
     case LIGHT_SPHERE: return sphere_sample_light(light, from, u01);
 #endif
-#if HAS_LIGHT(4)
+#ifdef HAS_LIGHT_QUAD
     case LIGHT_QUAD: return quad_sample_light(light, from, u01);
 #endif
-#if HAS_LIGHT(5)
+#ifdef HAS_LIGHT_DISK
     case LIGHT_DISK: return disk_sample_light(light, from, u01);
 #endif
-#if HAS_LIGHT(6)
+#ifdef HAS_LIGHT_TRIANGLE
     case LIGHT_TRIANGLE: return triangle_sample_light(light, from, u01);
 #endif
     default: return LIGHT_NOTHING;
@@ -69,10 +67,10 @@ float light_pdf(uint index, vec3 from, vec3 point, vec3 normal)
     Light light = light_fetch(index);
     float pdf = 0.0;
     switch (light.kind) {
-#if HAS_LIGHT(3)
+#ifdef HAS_LIGHT_SPHERE
     case LIGHT_SPHERE: pdf = sphere_light_pdf(light, from, point, normal); break;
 #endif
-#if HAS_LIGHT(4)
+#ifdef HAS_LIGHT_QUAD
     case LIGHT_QUAD: pdf = quad_light_pdf(light, from, point, normal); break;
 #endif
     default: pdf = flat_light_pdf(light, from, point, normal); break;

@@ -4,7 +4,7 @@
 
 struct Bsdf {
     uint kind;       // MATERIAL_…
-    uint mode;       // FRESNEL_…, or 1 = thin glass
+    uint mode;       // FRESNEL_…, or DIELECTRIC_…
     vec3 color;      // reflectance or diffuse coefficient
     vec3 specular;   // specular coefficient, or η of a conductor
     vec3 k;          // k of a conductor

@@ -53,7 +53,7 @@ BsdfSample dielectric_sample(Bsdf b, vec3 wo, float lobe, vec2 u01)
     vec3 m = smooth_surface ? vec3(0.0, 0.0, side) : ggx_visible_sample(wo * side, b.alpha, u01) * side;
     float cos_o = abs(dot(wo, m));
     float eta = dielectric_eta(b, wo);
-    bool thin = b.mode == 1u;
+    bool thin = b.mode == DIELECTRIC_THIN;
     float reflectance = fresnel_dielectric(cos_o, thin ? b.ior : eta);
     // Light goes to and fro in a thin sheet: R + T² R / (1 − R²).
     if (thin && reflectance < 1.0) reflectance += sqr(1.0 - reflectance) * reflectance / (1.0 - sqr(reflectance));

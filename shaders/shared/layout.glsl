@@ -4,10 +4,22 @@ const uint NONE = 4294967295u; // No object.
 const uint WORKGROUP = 64u; // Invocations of a workgroup: `local_size_x`, the only size in use.
 const uint TILE = 8u; // Side of a square tile of pixels: a workgroup takes one.
 const uint STACK_ENTRIES = 160u; // Most entries that the traversal stack of a kernel may have. `prepare` proves that every tree fits.
-const uint FILM_PLANES = 9u; // Words a pixel of the film.
+const uint FILM_PLANES = 9u; // Planes of the film: word w of pixel p is lane w % 4 of word p of plane w / 4. Sums have the lowest word first.
+const uint FILM_RADIANCE = 0u; // Film: sums of radiance, signed, two words a channel.
+const uint FILM_SAMPLES = 6u; // Film: number of samples.
+const uint FILM_COVERED = 7u; // Film: samples whose camera ray hit something.
+const uint FILM_SQUARES = 8u; // Film: sums of squares of radiance, unsigned, three words of every four a channel.
+const uint FILM_LEFT_OUT = 11u; // Film: samples left out because they were not finite.
+const uint FILM_CLAMPED = 15u; // Film: samples clamped to what the sums can hold.
+const uint FILM_ALBEDO = 20u; // Film: sums of albedo, signed, two words a channel.
+const uint FILM_DEPTH = 26u; // Film: sum of depths, signed, two words.
+const uint FILM_NORMAL = 28u; // Film: sums of normals, signed, two words a coordinate.
+const uint FILM_DEPTH_HITS = 34u; // Film: samples that have a depth.
+const uint AOV_BITS = 20u; // Bits behind the point of the sums of albedo and normal.
 const uint RAY_WORDS = 2u; // Words of the ray of a slot.
 const uint HIT_WORDS = 1u; // Words of what the ray of a slot met.
 const uint PATH_WORDS = 3u; // Words of the path of a slot.
+const uint PATH_DEPTH_BITS = 12u; // Bits of each of the two depths of a path.
 const uint SHADOW_WORDS = 3u; // Words of the shadow ray of a slot.
 const uint AOV_WORDS = 2u; // Words of albedo, depth and normal of a slot.
 const uint PARKED_HEAD = 6u; // Numbers that a parked ray keeps beside its stack.
@@ -40,6 +52,8 @@ const uint MATERIAL_DIFFUSE = 1u; // Material kind: Lambertian.
 const uint MATERIAL_PHONG = 2u; // Material kind: modified Phong.
 const uint MATERIAL_CONDUCTOR = 3u; // Material kind: mirror or GGX metal.
 const uint MATERIAL_DIELECTRIC = 4u; // Material kind: smooth or GGX glass.
+const uint DIELECTRIC_SOLID = 0u; // Dielectric mode: a boundary with an inside.
+const uint DIELECTRIC_THIN = 1u; // Dielectric mode: a sheet without an inside.
 const uint FRESNEL_INDEX = 0u; // Conductor rule: conductor with eta and k.
 const uint FRESNEL_EXACT = 1u; // Conductor rule: conductor with eta 1 and the k of its reflectance.
 const uint FRESNEL_SCHLICK = 2u; // Conductor rule: Schlick's approximation.
@@ -47,17 +61,28 @@ const uint FRESNEL_NONE = 3u; // Conductor rule: the same at every angle.
 const uint LIGHT_POINT = 0u; // Light kind: point light.
 const uint LIGHT_SPOT = 1u; // Light kind: spot light.
 const uint LIGHT_DISTANT = 2u; // Light kind: parallel light.
-const uint LIGHT_SPHERE = 3u; // Light kind: sphere.
+const uint LIGHT_SPHERE = 3u; // Light kind: sphere or ellipsoid.
 const uint LIGHT_QUAD = 4u; // Light kind: rectangle or parallelogram.
 const uint LIGHT_DISK = 5u; // Light kind: disk; edges are its radii.
 const uint LIGHT_TRIANGLE = 6u; // Light kind: triangle of a mesh.
-const uint WRAP_REPEAT = 0u; // Wrap mode: the picture again. Bits 0..2 and 2..4 of the flags of an image texture.
+const uint TEXELS_RGBA8 = 0u; // Texel format: a word holds 2×2 texels of 8 bits a channel.
+const uint TEXELS_RGBA8_SRGB = 1u; // Texel format: the same; colour is decoded before it is filtered.
+const uint TEXELS_RGBA16F = 2u; // Texel format: a word holds 2×1 texels of halves.
+const uint TEXELS_RGBA32F = 3u; // Texel format: a word holds 1 texel of floats.
+const uint WRAP_REPEAT = 0u; // Wrap mode: the picture again.
 const uint WRAP_CLAMP = 1u; // Wrap mode: the texel at the edge.
 const uint WRAP_MIRROR = 2u; // Wrap mode: the picture and its mirror image.
 const uint WRAP_BLACK = 3u; // Wrap mode: zero.
-const uint FLAG_NEAREST = 16u; // Flag of an image texture.
-const uint FLAG_INVERT = 32u; // Flag of an image texture.
-const uint CHANNEL_SHIFT = 8u; // Position of the channel in the flags of an image texture.
+const uint WRAP_MASK = 3u; // Bits of the flags of an image texture: its wrap mode along u, from bit 0.
+const uint WRAP_V_SHIFT = 2u; // Position of the wrap mode along v in the flags of an image texture.
+const uint FLAG_NEAREST = 16u; // Flag of an image texture: the nearest texel in place of bilinear filtering.
+const uint FLAG_INVERT = 32u; // Flag of an image texture: 1 less the colour.
+const uint CHANNEL_SHIFT = 8u; // Position of the channel in the flags of an image texture; nothing is above it.
+const uint CHANNEL_RGB = 0u; // Channel: all as they are.
+const uint CHANNEL_R = 1u; // Channel: red in all.
+const uint CHANNEL_G = 2u; // Channel: green in all.
+const uint CHANNEL_B = 3u; // Channel: blue in all.
+const uint CHANNEL_A = 4u; // Channel: alpha in all.
 
 struct Frame {
     vec3 camera_right; // camera space x in world space
@@ -84,7 +109,7 @@ struct Frame {
     uvec2 strata; // strata of a pixel in x and y
     uint max_depth; // most scattering events on a path
     uint diffuse_bounces; // most scattering events that are neither mirror nor clear glass
-    uint slot_count; // slots of the slice: 64 · tile_count · sample_count
+    uint slot_count; // slots of the slice: WORKGROUP · tile_count · sample_count
     uint root; // entry of the tree that rays start at
     uint step_limit; // most steps of a ray in one dispatch, before it is parked
     uint light_count; // lights in the table, the environment left out
@@ -128,7 +153,7 @@ Node node_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
 
 struct Triangle {
     vec3 a; // first vertex, in the space of its tree
-    uint instance; // instance, when the tree is in world space; else unused
+    uint instance; // instance, when the tree is in world space; else NONE
     vec3 b; // second vertex
     uint material; // its material, or NONE for that of the instance
     vec3 c; // third vertex
@@ -216,7 +241,7 @@ Instance instance_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4
 
 struct Material {
     uint kind; // MATERIAL_… kind
-    uint mode; // FRESNEL_… rule of a conductor; 1 = thin for a dielectric
+    uint mode; // FRESNEL_… rule of a conductor, or DIELECTRIC_… mode
     float ior; // index of refraction of a dielectric
     float exponent; // exponent of a Phong lobe
     vec3 color; // colour: radiance, reflectance or diffuse coefficient
@@ -267,7 +292,7 @@ struct ImageTexture {
     vec2 uv_column1; // uv to picture, column 1
     vec2 uv_offset; // uv to picture, offset
     float scale; // factor on the value
-    uint flags; // FLAG_… bits: filter, wrap, channel, invert
+    uint flags; // FLAG_… bits, WRAP_… modes and CHANNEL_…
 };
 const uint IMAGE_TEXTURE_WORDS = 3u;
 ImageTexture image_texture_unpack(uvec4 w0, uvec4 w1, uvec4 w2)

@@ -2,13 +2,15 @@
 #include "stages/wave.glsl"
 #include "base/fixed.glsl"
 
-const float AOV_SCALE = 1048576.0; // 2^20, src/layout AOV_EXPONENT
+const float AOV_SCALE = float(1u << AOV_BITS);
 
 // What the samples of a pixel add, before it goes into the film.
 struct PixelSums {
     uvec2 radiance[3];
     uvec3 squares[3];
-    uvec2 aov[7]; // albedo, depth, normal
+    uvec2 albedo[3];
+    uvec2 normal[3];
+    uvec2 depth;
     uint samples;
     uint covered;
     uint left_out;
@@ -39,14 +41,14 @@ void add_sample(inout PixelSums sums, uint slot)
     vec3 normal = uintBitsToFloat(fetch_aovs(slot * AOV_WORDS + 1u).xyz);
     vec3 albedo = clamp(albedo_depth.xyz, 0.0, 65536.0);
     for (int c = 0; c < 3; ++c) {
-        sums.aov[c] = fixed_add(sums.aov[c], fixed_from_float(albedo[c] * AOV_SCALE));
-        sums.aov[4 + c] = fixed_add(sums.aov[4 + c], fixed_from_float(normal[c] * AOV_SCALE));
+        sums.albedo[c] = fixed_add(sums.albedo[c], fixed_from_float(albedo[c] * AOV_SCALE));
+        sums.normal[c] = fixed_add(sums.normal[c], fixed_from_float(normal[c] * AOV_SCALE));
     }
-    sums.aov[3] = fixed_add(sums.aov[3], fixed_from_float(min(albedo_depth.w * frame.depth_scale, FIXED_LIMIT)));
+    sums.depth = fixed_add(sums.depth, fixed_from_float(min(albedo_depth.w * frame.depth_scale, FIXED_LIMIT)));
     sums.depth_hits += 1u;
 }
 
-uint film_at(uint plane, uint pixel) { return (plane * frame.film_tile_count * WORKGROUP + pixel) * 4u; }
+uint film_at(uint word, uint pixel) { return ((word / 4u) * frame.film_tile_count * WORKGROUP + pixel) * 4u + word % 4u; }
 
 void film_add(uint at, uvec2 value)
 {
@@ -63,40 +65,36 @@ void film_add_wide(uint at, uvec3 value)
     film[at + 2u] = sum.z;
 }
 
-// The planes are those of src/film.
 void store_pixel(uint pixel, PixelSums sums)
 {
-    film_add(film_at(0u, pixel), sums.radiance[0]);
-    film_add(film_at(0u, pixel) + 2u, sums.radiance[1]);
-    film_add(film_at(1u, pixel), sums.radiance[2]);
-    film[film_at(1u, pixel) + 2u] += sums.samples;
-    film[film_at(1u, pixel) + 3u] += sums.covered;
-    film_add_wide(film_at(2u, pixel), sums.squares[0]);
-    film_add_wide(film_at(3u, pixel), sums.squares[1]);
-    film_add_wide(film_at(4u, pixel), sums.squares[2]);
-    film[film_at(2u, pixel) + 3u] += sums.left_out;
-    film[film_at(3u, pixel) + 3u] += sums.clamped;
-    film_add(film_at(5u, pixel), sums.aov[0]);
-    film_add(film_at(5u, pixel) + 2u, sums.aov[1]);
-    film_add(film_at(6u, pixel), sums.aov[2]);
-    film_add(film_at(6u, pixel) + 2u, sums.aov[3]);
-    film_add(film_at(7u, pixel), sums.aov[4]);
-    film_add(film_at(7u, pixel) + 2u, sums.aov[5]);
-    film_add(film_at(8u, pixel), sums.aov[6]);
-    film[film_at(8u, pixel) + 2u] += sums.depth_hits;
+    for (uint c = 0u; c < 3u; ++c) {
+        film_add(film_at(FILM_RADIANCE + 2u * c, pixel), sums.radiance[c]);
+        film_add_wide(film_at(FILM_SQUARES + 4u * c, pixel), sums.squares[c]);
+        film_add(film_at(FILM_ALBEDO + 2u * c, pixel), sums.albedo[c]);
+        film_add(film_at(FILM_NORMAL + 2u * c, pixel), sums.normal[c]);
+    }
+    film_add(film_at(FILM_DEPTH, pixel), sums.depth);
+    film[film_at(FILM_SAMPLES, pixel)] += sums.samples;
+    film[film_at(FILM_COVERED, pixel)] += sums.covered;
+    film[film_at(FILM_LEFT_OUT, pixel)] += sums.left_out;
+    film[film_at(FILM_CLAMPED, pixel)] += sums.clamped;
+    film[film_at(FILM_DEPTH_HITS, pixel)] += sums.depth_hits;
 }
 
 void main()
 {
-    // A wave with parked rays is not finished: the host sends it round again.
+    // A wave with rays that wait is not finished: the host sends it round again.
     if (counters[COUNTER_WAITING_PATHS] + counters[COUNTER_WAITING_SHADOWS] != 0u) return;
     uint tile = interleaved_group();
     uint lane = gl_LocalInvocationIndex;
     if (tile >= frame.tile_count || !slot_place(tile * frame.sample_count * WORKGROUP + lane).inside) return;
-    uint pixel = (frame.first_tile + tile - frame.film_first_tile) * WORKGROUP + lane;
-    PixelSums sums = PixelSums(uvec2[3](uvec2(0), uvec2(0), uvec2(0)), uvec3[3](uvec3(0), uvec3(0), uvec3(0)),
-                               uvec2[7](uvec2(0), uvec2(0), uvec2(0), uvec2(0), uvec2(0), uvec2(0), uvec2(0)),
-                               0u, 0u, 0u, 0u, 0u);
+    // In a tile, the pixels of the film are row by row.
+    uvec2 at = tile_place(lane);
+    uint pixel = (frame.first_tile + tile - frame.film_first_tile) * WORKGROUP + at.y * TILE + at.x;
+    uvec2 zero = uvec2(0u);
+    uvec3 wide = uvec3(0u);
+    PixelSums sums = PixelSums(uvec2[3](zero, zero, zero), uvec3[3](wide, wide, wide), uvec2[3](zero, zero, zero),
+                               uvec2[3](zero, zero, zero), zero, 0u, 0u, 0u, 0u, 0u);
     for (uint s = 0u; s < frame.sample_count; ++s) add_sample(sums, (tile * frame.sample_count + s) * WORKGROUP + lane);
     store_pixel(pixel, sums);
 }

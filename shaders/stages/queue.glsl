@@ -2,7 +2,7 @@
 // octant of directions: rays of one octant meet the same nodes, and the lanes of a subgroup stay together longer.
 #include "shared/bindings.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = WORKGROUP) in;
 
 const uint QUEUE_PATHS = 0u;
 const uint QUEUE_SHADOWS = 1u;

@@ -106,11 +106,10 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     path.flags |= PATH_COVERED;
     Surface surface = surface_at(uintBitsToFloat(hit.x), hit.y, hit.z, ray.origin, ray.direction);
     bool front = dot(ray.direction, surface.geometric) < 0.0;
-    if (!front && surface.material == NONE) return false;
     Material material = material_fetch(surface.material);
 #ifdef HAS_MEDIUM
     // A camera inside glass is known by the boundary that is met from behind.
-    bool from_inside = !front && material.kind == MATERIAL_DIELECTRIC && material.mode == 0u;
+    bool from_inside = !front && material.kind == MATERIAL_DIELECTRIC && material.mode == DIELECTRIC_SOLID;
     if (path.medium == NONE && from_inside) path.medium = surface.material;
     path.throughput *= medium_transmittance(path.medium, distance(ray.origin, surface.position));
 #endif

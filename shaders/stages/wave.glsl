@@ -7,10 +7,13 @@ struct SlotPlace { uvec2 pixel; uint sample_index; bool inside; };
 
 uint morton_even(uint x) { return (x & 1u) | ((x >> 1) & 2u) | ((x >> 2) & 4u); }
 
+// Column and row, within its tile, of the pixel of a lane.
+uvec2 tile_place(uint lane) { return uvec2(morton_even(lane), morton_even(lane >> 1)); }
+
 uvec2 tile_pixel(uint tile, uint lane)
 {
     uvec2 corner = uvec2(tile % frame.tiles_x, tile / frame.tiles_x) * TILE;
-    return frame.window_min + corner + uvec2(morton_even(lane), morton_even(lane >> 1));
+    return frame.window_min + corner + tile_place(lane);
 }
 
 SlotPlace slot_place(uint slot)
@@ -35,27 +38,28 @@ struct Path {
 };
 
 const uint PATH_COVERED = 1u;     // the camera ray hit something
-const uint PATH_HAS_AOV = 2u;
+const uint PATH_HAS_AOV = 2u;     // its albedo, depth and normal are stored
 const uint PATH_WAITS = 4u;       // its shadow ray is too long for one dispatch
-const uint PATH_FLAGS_SHIFT = 24u;
+const uint PATH_FLAGS_SHIFT = 2u * PATH_DEPTH_BITS;
+const uint PATH_DEPTH_MASK = (1u << PATH_DEPTH_BITS) - 1u;
 
 Path path_load(uint slot)
 {
     uvec4 a = fetch_paths(slot * PATH_WORDS);
     uvec4 b = fetch_paths(slot * PATH_WORDS + 1u);
     uvec4 c = fetch_paths(slot * PATH_WORDS + 2u);
-    return Path(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w & 0xfffu, (b.w >> 12) & 0xfffu,
-                b.w >> PATH_FLAGS_SHIFT, c.x, uintBitsToFloat(c.y), SampleKey(c.z, c.w, frame.strata));
+    return Path(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w & PATH_DEPTH_MASK,
+                (b.w >> PATH_DEPTH_BITS) & PATH_DEPTH_MASK, b.w >> PATH_FLAGS_SHIFT, c.x, uintBitsToFloat(c.y), SampleKey(c.z, c.w, frame.strata));
 }
 
 void path_store(uint slot, Path p)
 {
     store_paths(slot * PATH_WORDS, uvec4(floatBitsToUint(p.throughput), floatBitsToUint(p.pdf)));
-    uint packed = p.depth | (p.diffuse_depth << 12) | (p.flags << PATH_FLAGS_SHIFT);
+    uint packed = p.depth | (p.diffuse_depth << PATH_DEPTH_BITS) | (p.flags << PATH_FLAGS_SHIFT);
     store_paths(slot * PATH_WORDS + 1u, uvec4(floatBitsToUint(p.radiance), packed));
 }
 
-// What only glass changes.
+// What only glass changes, beside the key of the random numbers, which stays as the camera made it.
 void path_store_medium(uint slot, Path p)
 {
     store_paths(slot * PATH_WORDS + 2u, uvec4(p.medium, floatBitsToUint(p.eta_scale), p.key.pixel, p.key.index));
@@ -75,7 +79,7 @@ void ray_store(uint slot, WaveRay ray)
     store_rays(slot * RAY_WORDS + 1u, uvec4(floatBitsToUint(ray.direction), 0u));
 }
 
-// What `hits` holds in its last lane.
+// What `hits` holds in its last lane, and `shadows`: there, 0 is a ray that nobody has followed yet.
 const uint HIT_MISS = 0u;
 const uint HIT_SURFACE = 1u;
 const uint HIT_LONG = 2u;   // ran out of steps: waits for the kernel that can park it

@@ -2,12 +2,6 @@
 #include "shared/bindings.glsl"
 #include "texture/context.glsl"
 
-// Texel formats, chosen by the generated code.
-const uint TEXELS_RGBA8 = 0u;      // a word holds 2×2 texels
-const uint TEXELS_RGBA8_SRGB = 1u; // the same; colour is decoded before it is filtered
-const uint TEXELS_RGBA16F = 2u;    // a word holds 2×1 texels
-const uint TEXELS_RGBA32F = 3u;    // a word holds 1 texel
-
 ImageTexture image_texture_fetch(uint w)
 {
     return image_texture_unpack(fetch_textures(w), fetch_textures(w + 1u), fetch_textures(w + 2u));
@@ -28,7 +22,7 @@ uint lane_of(uvec4 word, uint lane)
     return lane < 2u ? low : high;
 }
 
-// The texel in column x and row y (row 0 on top), both in range.
+// The texel in column x and row y (row 0 on top), both in range; the generated code knows the TEXELS_… format.
 vec4 texel(ImageTexture image, uint format, uint x, uint y)
 {
     if (format == TEXELS_RGBA32F) return uintBitsToFloat(fetch_texels(image.base + y * image.pitch + x));
@@ -61,13 +55,13 @@ uint wrap_index(int i, int n, uint mode, inout bool outside)
 vec4 wrapped_texel(ImageTexture image, uint format, ivec2 at)
 {
     bool outside = false;
-    uint x = wrap_index(at.x, int(image.size.x), image.flags & 3u, outside);
-    uint y = wrap_index(at.y, int(image.size.y), (image.flags >> 2) & 3u, outside);
+    uint x = wrap_index(at.x, int(image.size.x), image.flags & WRAP_MASK, outside);
+    uint y = wrap_index(at.y, int(image.size.y), (image.flags >> WRAP_V_SHIFT) & WRAP_MASK, outside);
     return outside ? vec4(0.0) : texel(image, format, x, y);
 }
 
 // The value of the picture at a uv: nearest, or bilinear with texel centres at (i + ½) / n, each of the four texels
-// wrapped by itself. The limit keeps a wild uv within the integers that a float holds.
+// wrapped by itself. The limit keeps the place of a wild uv within what an int holds.
 vec4 image_lookup(ImageTexture image, uint format, vec2 uv)
 {
     vec2 st = clamp(image.uv_column0 * uv.x + image.uv_column1 * uv.y + image.uv_offset, -16384.0, 16384.0);
@@ -90,8 +84,11 @@ vec4 image_texture(uint w, uint format, TextureContext context)
 {
     ImageTexture image = image_texture_fetch(w);
     vec4 value = image_lookup(image, format, context.uv);
-    uint channel = (image.flags >> CHANNEL_SHIFT) & 7u;
-    if (channel != 0u) value.rgb = vec3(channel == 1u ? value.r : channel == 2u ? value.g : channel == 3u ? value.b : value.a);
+    uint channel = image.flags >> CHANNEL_SHIFT;
+    if (channel == CHANNEL_R) value.rgb = value.rrr;
+    if (channel == CHANNEL_G) value.rgb = value.ggg;
+    if (channel == CHANNEL_B) value.rgb = value.bbb;
+    if (channel == CHANNEL_A) value.rgb = value.aaa;
     if ((image.flags & FLAG_INVERT) != 0u) value.rgb = 1.0 - value.rgb;
     return vec4(value.rgb * image.scale, value.a);
 }

@@ -2,7 +2,7 @@
 
 use super::parse::{self, Pixel, Setting, Size};
 use clap::{Args as ClapArgs, Parser, Subcommand};
-use dapple::film::MAX_SAMPLES;
+use dapple::scene::MAX_SAMPLES;
 use dapple::scene::Rect;
 use std::path::PathBuf;
 use std::time::Duration;

@@ -2,10 +2,10 @@
 
 use super::args::RenderArgs;
 use super::parse::{Pixel, Size};
-use dapple::film::{self, MAX_SAMPLES};
+use dapple::film;
 use dapple::gpu::{DeviceChoice, validation_from_environment};
 use dapple::import::{Warning, read_scene};
-use dapple::scene::{Film, Rect, Scene};
+use dapple::scene::{Film, MAX_SAMPLES, Rect, Scene};
 use dapple::shader::{CacheOptions, Compiler, Sources};
 use dapple::{Error, Result};
 use std::path::{Path, PathBuf};

@@ -1,10 +1,7 @@
 //! Values of options, from their text.
 
-use dapple::scene::Rect;
+use dapple::scene::{MAX_SIDE, Rect};
 use std::time::Duration;
-
-/// Largest width and height in pixels, as in a scene file.
-const MAX_SIZE: u32 = 16384;
 
 /// Width and height of a picture, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,14 +20,14 @@ pub struct Pixel {
 /// Key and value of a `--set key=value`.
 pub type Setting = (String, String);
 
-/// `WxH`, both from 1 to 16384.
+/// `WxH`, both from 1 to [`MAX_SIDE`].
 pub fn size(text: &str) -> Result<Size, String> {
     let numbers = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some((number(w)?, number(h)?)));
     let (width, height) = numbers.ok_or("write width and height in pixels as 640x480")?;
-    if (1..=MAX_SIZE).contains(&width) && (1..=MAX_SIZE).contains(&height) {
+    if (1..=MAX_SIDE).contains(&width) && (1..=MAX_SIDE).contains(&height) {
         Ok(Size { width, height })
     } else {
-        Err(format!("width and height are from 1 to {MAX_SIZE} pixels"))
+        Err(format!("width and height are from 1 to {MAX_SIDE} pixels"))
     }
 }
 

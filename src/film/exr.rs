@@ -140,7 +140,7 @@ mod tests {
         picture.depth.iter_mut().for_each(|v| *v = value());
         picture.depth[0] = f32::INFINITY;
         picture.samples.iter_mut().zip(1..).for_each(|(v, i)| *v = i);
-        picture.samples[1] = super::super::MAX_SAMPLES;
+        picture.samples[1] = crate::scene::MAX_SAMPLES;
         picture
     }
 

@@ -13,30 +13,16 @@ mod write;
 pub use resolve::Picture;
 pub use write::{Format, Meta, check_target, format_of, write};
 
-use crate::scene::Rect;
+use crate::layout::FILM_PLANES;
+use crate::scene::{MAX_SAMPLES, Rect};
 use crate::{Error, Result};
-use sums::{PixelSums, SAMPLES_WORD};
+use sums::PixelSums;
 
-/// Words of 32 bits that the device holds for a pixel: 9 planes of 4.
+/// Words of 32 bits that the device holds for a pixel: [`FILM_PLANES`] planes of 4.
 ///
-/// A band of `n` pixels (rows from top to bottom) is `36 n` words. Word `c` of plane `p` of pixel `i` is at
-/// `(p * n + i) * 4 + c`. Numbers of more than one word have the lowest word first.
-///
-/// | plane | words |
-/// |---|---|
-/// | 0 | red (2), green (2): signed 64-bit sums in the radiance unit |
-/// | 1 | blue (2), samples, samples whose camera ray hit something |
-/// | 2 | squares of red: unsigned 96-bit sum (3) in the squared radiance unit; samples left out, not finite |
-/// | 3 | squares of green (3); samples clamped |
-/// | 4 | squares of blue (3); unused |
-/// | 5 | albedo red (2), green (2), in units of 2^-20 |
-/// | 6 | albedo blue (2), depth (2), in the depth unit |
-/// | 7 | normal x (2), y (2), in units of 2^-20 |
-/// | 8 | normal z (2), samples that had a depth, unused |
-pub const WORDS_PER_PIXEL: usize = 36;
-
-/// Most samples that a pixel of a film can hold, 2^20: the clamp of a sample leaves room in 64 bits for so many.
-pub const MAX_SAMPLES: u32 = 1 << 20;
+/// A band of `n` pixels (rows from top to bottom) is `n` times as many. Word `w` of pixel `i`, one of the
+/// `FILM_…` of [`crate::layout`], is at `(w / 4 * n + i) * 4 + w % 4`.
+pub const WORDS_PER_PIXEL: usize = 4 * FILM_PLANES as usize;
 
 /// What films must agree on to be parts of one picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -137,8 +123,7 @@ impl Film {
             )));
         }
         for (source, target) in self.targets(rect).enumerate() {
-            let (plane, word) = SAMPLES_WORD;
-            self.check_room(target, words[(plane * count + source) * 4 + word])?;
+            self.check_room(target, sums::samples_in(words, count, source))?;
         }
         for (source, target) in self.targets(rect).enumerate() {
             self.pixels[target].add(&PixelSums::from_words(words, count, source));

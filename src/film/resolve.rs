@@ -1,7 +1,8 @@
 //! From exact sums to a picture of 32-bit floats.
 
-use super::sums::{AOV_EXPONENT, PixelSums};
+use super::sums::PixelSums;
 use super::{Film, Frame};
+use crate::layout::AOV_BITS;
 
 /// Means of the samples, one value a pixel of the window, row by row from the top.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +32,7 @@ impl Film {
         let frame = self.frame;
         let radiance_unit = 2f64.powi(frame.radiance_exponent);
         let depth_unit = 2f64.powi(frame.depth_exponent);
-        let aov_unit = 2f64.powi(AOV_EXPONENT);
+        let aov_unit = 2f64.powi(-(AOV_BITS as i32));
         let each = |value: &dyn Fn(&PixelSums) -> f32| self.pixels.iter().map(value).collect::<Vec<_>>();
         let each3 = |value: &dyn Fn(&PixelSums, usize) -> f32| {
             self.pixels.iter().map(|p| [0, 1, 2].map(|c| value(p, c))).collect::<Vec<_>>()

@@ -1,10 +1,20 @@
 //! The sums of one pixel: decoding from device words and exact addition.
 
-/// Plane and word in the plane that hold the number of samples.
-pub(super) const SAMPLES_WORD: (usize, usize) = (1, 2);
+use crate::layout::{
+    FILM_ALBEDO, FILM_CLAMPED, FILM_COVERED, FILM_DEPTH, FILM_DEPTH_HITS, FILM_LEFT_OUT, FILM_NORMAL,
+    FILM_RADIANCE, FILM_SAMPLES, FILM_SQUARES,
+};
 
-/// Unit of albedo and normal sums is 2 to this power.
-pub(super) const AOV_EXPONENT: i32 = -20;
+/// Word `word` of pixel `index` of a band of `count` pixels.
+fn word_at(words: &[u32], count: usize, index: usize, word: u32) -> u32 {
+    let (plane, lane) = (word as usize / 4, word as usize % 4);
+    words[(plane * count + index) * 4 + lane]
+}
+
+/// Samples of pixel `index` of a band of `count` pixels.
+pub(super) fn samples_in(words: &[u32], count: usize, index: usize) -> u32 {
+    word_at(words, count, index, FILM_SAMPLES)
+}
 
 /// Sums over the samples of a pixel, in the units of its film. Colours are red, green, blue.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -35,22 +45,22 @@ impl PixelSums {
     /// Sums of pixel `index` of a band of `count` pixels; `words` has the layout of
     /// [`super::WORDS_PER_PIXEL`] and its full length.
     pub fn from_words(words: &[u32], count: usize, index: usize) -> Self {
-        let word = |plane: usize, c: usize| words[(plane * count + index) * 4 + c];
-        let sum64 = |plane, c| (u64::from(word(plane, c)) | u64::from(word(plane, c + 1)) << 32) as i64;
-        let sum96 = |plane| {
-            u128::from(word(plane, 0)) | u128::from(word(plane, 1)) << 32 | u128::from(word(plane, 2)) << 64
+        let word = |word| word_at(words, count, index, word);
+        let sum64 = |first| (u64::from(word(first)) | u64::from(word(first + 1)) << 32) as i64;
+        let sum96 = |first| {
+            u128::from(word(first)) | u128::from(word(first + 1)) << 32 | u128::from(word(first + 2)) << 64
         };
         Self {
-            squares: [sum96(2), sum96(3), sum96(4)],
-            radiance: [sum64(0, 0), sum64(0, 2), sum64(1, 0)],
-            albedo: [sum64(5, 0), sum64(5, 2), sum64(6, 0)],
-            normal: [sum64(7, 0), sum64(7, 2), sum64(8, 0)],
-            depth: sum64(6, 2),
-            samples: word(SAMPLES_WORD.0, SAMPLES_WORD.1),
-            covered: word(1, 3),
-            depth_hits: word(8, 2),
-            left_out: word(2, 3),
-            clamped: word(3, 3),
+            squares: [0, 1, 2].map(|c| sum96(FILM_SQUARES + 4 * c)),
+            radiance: [0, 1, 2].map(|c| sum64(FILM_RADIANCE + 2 * c)),
+            albedo: [0, 1, 2].map(|c| sum64(FILM_ALBEDO + 2 * c)),
+            normal: [0, 1, 2].map(|c| sum64(FILM_NORMAL + 2 * c)),
+            depth: sum64(FILM_DEPTH),
+            samples: word(FILM_SAMPLES),
+            covered: word(FILM_COVERED),
+            depth_hits: word(FILM_DEPTH_HITS),
+            left_out: word(FILM_LEFT_OUT),
+            clamped: word(FILM_CLAMPED),
         }
     }
 

@@ -19,14 +19,38 @@ constants! {
     TILE = 8;
     /// Most entries that the traversal stack of a kernel may have. `prepare` proves that every tree fits.
     STACK_ENTRIES = 160;
-    /// Words a pixel of the film.
+    /// Planes of the film: word w of pixel p is lane w % 4 of word p of plane w / 4. Sums have the lowest word first.
     FILM_PLANES = 9;
+    /// Film: sums of radiance, signed, two words a channel.
+    FILM_RADIANCE = 0;
+    /// Film: number of samples.
+    FILM_SAMPLES = 6;
+    /// Film: samples whose camera ray hit something.
+    FILM_COVERED = 7;
+    /// Film: sums of squares of radiance, unsigned, three words of every four a channel.
+    FILM_SQUARES = 8;
+    /// Film: samples left out because they were not finite.
+    FILM_LEFT_OUT = 11;
+    /// Film: samples clamped to what the sums can hold.
+    FILM_CLAMPED = 15;
+    /// Film: sums of albedo, signed, two words a channel.
+    FILM_ALBEDO = 20;
+    /// Film: sum of depths, signed, two words.
+    FILM_DEPTH = 26;
+    /// Film: sums of normals, signed, two words a coordinate.
+    FILM_NORMAL = 28;
+    /// Film: samples that have a depth.
+    FILM_DEPTH_HITS = 34;
+    /// Bits behind the point of the sums of albedo and normal.
+    AOV_BITS = 20;
     /// Words of the ray of a slot.
     RAY_WORDS = 2;
     /// Words of what the ray of a slot met.
     HIT_WORDS = 1;
     /// Words of the path of a slot.
     PATH_WORDS = 3;
+    /// Bits of each of the two depths of a path.
+    PATH_DEPTH_BITS = 12;
     /// Words of the shadow ray of a slot.
     SHADOW_WORDS = 3;
     /// Words of albedo, depth and normal of a slot.
@@ -91,6 +115,10 @@ constants! {
     MATERIAL_CONDUCTOR = 3;
     /// Material kind: smooth or GGX glass.
     MATERIAL_DIELECTRIC = 4;
+    /// Dielectric mode: a boundary with an inside.
+    DIELECTRIC_SOLID = 0;
+    /// Dielectric mode: a sheet without an inside.
+    DIELECTRIC_THIN = 1;
     /// Conductor rule: conductor with eta and k.
     FRESNEL_INDEX = 0;
     /// Conductor rule: conductor with eta 1 and the k of its reflectance.
@@ -105,7 +133,7 @@ constants! {
     LIGHT_SPOT = 1;
     /// Light kind: parallel light.
     LIGHT_DISTANT = 2;
-    /// Light kind: sphere.
+    /// Light kind: sphere or ellipsoid.
     LIGHT_SPHERE = 3;
     /// Light kind: rectangle or parallelogram.
     LIGHT_QUAD = 4;
@@ -113,7 +141,15 @@ constants! {
     LIGHT_DISK = 5;
     /// Light kind: triangle of a mesh.
     LIGHT_TRIANGLE = 6;
-    /// Wrap mode: the picture again. Bits 0..2 and 2..4 of the flags of an image texture.
+    /// Texel format: a word holds 2×2 texels of 8 bits a channel.
+    TEXELS_RGBA8 = 0;
+    /// Texel format: the same; colour is decoded before it is filtered.
+    TEXELS_RGBA8_SRGB = 1;
+    /// Texel format: a word holds 2×1 texels of halves.
+    TEXELS_RGBA16F = 2;
+    /// Texel format: a word holds 1 texel of floats.
+    TEXELS_RGBA32F = 3;
+    /// Wrap mode: the picture again.
     WRAP_REPEAT = 0;
     /// Wrap mode: the texel at the edge.
     WRAP_CLAMP = 1;
@@ -121,10 +157,24 @@ constants! {
     WRAP_MIRROR = 2;
     /// Wrap mode: zero.
     WRAP_BLACK = 3;
-    /// Flag of an image texture.
+    /// Bits of the flags of an image texture: its wrap mode along u, from bit 0.
+    WRAP_MASK = 3;
+    /// Position of the wrap mode along v in the flags of an image texture.
+    WRAP_V_SHIFT = 2;
+    /// Flag of an image texture: the nearest texel in place of bilinear filtering.
     FLAG_NEAREST = 16;
-    /// Flag of an image texture.
+    /// Flag of an image texture: 1 less the colour.
     FLAG_INVERT = 32;
-    /// Position of the channel in the flags of an image texture.
+    /// Position of the channel in the flags of an image texture; nothing is above it.
     CHANNEL_SHIFT = 8;
+    /// Channel: all as they are.
+    CHANNEL_RGB = 0;
+    /// Channel: red in all.
+    CHANNEL_R = 1;
+    /// Channel: green in all.
+    CHANNEL_G = 2;
+    /// Channel: blue in all.
+    CHANNEL_B = 3;
+    /// Channel: alpha in all.
+    CHANNEL_A = 4;
 }

@@ -1,8 +1,8 @@
 //! The only definition of what host and kernels share: records, enum numbers, constants and bindings.
 //!
 //! [`layout_glsl`] and [`bindings_glsl`] write `shaders/shared/layout.glsl` and `shaders/shared/bindings.glsl`,
-//! which are committed; a test compares them. Every record is a whole number of 16-byte words, read as `uvec4`
-//! and unpacked with `uintBitsToFloat`, because a float format may flush small integers as denormals.
+//! which are committed; a test compares them. Every record is a whole number of 16-byte words. All but the uniform block are
+//! read as `uvec4` and unpacked with `uintBitsToFloat`, because a float format may flush small integers as denormals.
 
 mod bindings;
 mod constants;
@@ -19,8 +19,6 @@ pub const WORD_BYTES: u64 = 16;
 /// An item of the buffer of trees: a [`Node`], a [`Triangle`], or the number of an instance in the first place.
 pub type Item = [[u32; 4]; ITEM_WORDS as usize];
 const _: () = assert!(Node::WORDS == ITEM_WORDS && Triangle::WORDS == ITEM_WORDS);
-/// log₂ of the unit of the sums of albedo and normal.
-pub const AOV_EXPONENT: i32 = -20;
 
 /// A record in device memory: plain data, a whole number of words.
 pub trait Record: bytemuck::Pod {

@@ -1,4 +1,4 @@
-//! The records and constants that host and kernels share.
+//! The records that host and kernels share.
 
 use super::{Field, Record};
 
@@ -130,7 +130,7 @@ records! {
         max_depth: u32,
         /// most scattering events that are neither mirror nor clear glass
         diffuse_bounces: u32,
-        /// slots of the slice: 64 · tile_count · sample_count
+        /// slots of the slice: WORKGROUP · tile_count · sample_count
         slot_count: u32,
         /// entry of the tree that rays start at
         root: u32,
@@ -192,7 +192,7 @@ records! {
     struct Triangle {
         /// first vertex, in the space of its tree
         a: [f32; 3],
-        /// instance, when the tree is in world space; else unused
+        /// instance, when the tree is in world space; else NONE
         instance: u32,
         /// second vertex
         b: [f32; 3],
@@ -256,11 +256,11 @@ records! {
         default_uv: u32,
     }
 
-    /// A material. A texture field is a reference (see TextureRef in texture/), or NONE.
+    /// A material. A texture field is a reference, whose bits `prepare` and the code that it generates know, or NONE.
     struct Material {
         /// MATERIAL_… kind
         kind: u32,
-        /// FRESNEL_… rule of a conductor; 1 = thin for a dielectric
+        /// FRESNEL_… rule of a conductor, or DIELECTRIC_… mode
         mode: u32,
         /// index of refraction of a dielectric
         ior: f32,
@@ -312,7 +312,7 @@ records! {
         uv_offset: [f32; 2],
         /// factor on the value
         scale: f32,
-        /// FLAG_… bits: filter, wrap, channel, invert
+        /// FLAG_… bits, WRAP_… modes and CHANNEL_…
         flags: u32,
     }
 

@@ -3,6 +3,7 @@
 //! Each picture keeps its own size; nothing lies between neighbours, because the kernels filter by themselves and never
 //! read outside a picture.
 
+use crate::layout::{TEXELS_RGBA8, TEXELS_RGBA8_SRGB, TEXELS_RGBA16F, TEXELS_RGBA32F};
 use crate::scene::{ColorSpace, Handle, Image, ImageTexture, Scene, Texels};
 use crate::{Error, Result};
 use etagere::{AtlasAllocator, size2};
@@ -23,13 +24,13 @@ pub(super) enum Format {
 }
 
 impl Format {
-    /// Name of the constant in `texture/image.glsl`.
-    pub(super) fn glsl_name(self) -> &'static str {
+    /// Its number in the kernels.
+    pub(super) fn number(self) -> u32 {
         match self {
-            Self::Rgba8 => "TEXELS_RGBA8",
-            Self::Rgba8Srgb => "TEXELS_RGBA8_SRGB",
-            Self::Rgba16F => "TEXELS_RGBA16F",
-            Self::RgbaF32 => "TEXELS_RGBA32F",
+            Self::Rgba8 => TEXELS_RGBA8,
+            Self::Rgba8Srgb => TEXELS_RGBA8_SRGB,
+            Self::Rgba16F => TEXELS_RGBA16F,
+            Self::RgbaF32 => TEXELS_RGBA32F,
         }
     }
 

@@ -3,8 +3,9 @@
 use super::Prepared;
 use super::textures::References;
 use crate::layout::{
-    FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE, FRESNEL_SCHLICK, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC,
-    MATERIAL_DIFFUSE, MATERIAL_PHONG, MATERIAL_UNLIT, Material, NONE,
+    DIELECTRIC_SOLID, DIELECTRIC_THIN, FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE, FRESNEL_SCHLICK,
+    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, MATERIAL_UNLIT, Material,
+    NONE,
 };
 use crate::scene::{self, Fresnel, Scene, Surface, Value};
 use glam::Vec3;
@@ -76,7 +77,7 @@ fn record(material: &scene::Material, textures: &References) -> Material {
         Surface::Dielectric(dielectric) => {
             r.kind = MATERIAL_DIELECTRIC;
             r.ior = dielectric.ior;
-            r.mode = u32::from(dielectric.thin);
+            r.mode = if dielectric.thin { DIELECTRIC_THIN } else { DIELECTRIC_SOLID };
             (r.alpha_u, r.alpha_u_texture) = number(&dielectric.alpha_u);
             (r.alpha_v, r.alpha_v_texture) = number(&dielectric.alpha_v);
             r.specular = dielectric.absorption.to_array();

@@ -6,8 +6,9 @@
 
 use super::Prepared;
 use super::atlas::{Atlas, Format, Reader};
-use crate::layout::{CHANNEL_SHIFT, FLAG_INVERT, FLAG_NEAREST, ImageTexture, Record};
-use crate::layout::{WRAP_BLACK, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT};
+use crate::layout::{CHANNEL_A, CHANNEL_B, CHANNEL_G, CHANNEL_R, CHANNEL_RGB, CHANNEL_SHIFT};
+use crate::layout::{FLAG_INVERT, FLAG_NEAREST, ImageTexture, Record};
+use crate::layout::{WRAP_BLACK, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT, WRAP_V_SHIFT};
 use crate::scene::{self, Channel, Handle, Scene, TexelFilter, Texture, Wrap};
 use crate::{Error, Result};
 use std::fmt::Write as _;
@@ -102,7 +103,7 @@ fn glsl(shapes: &[Format]) -> String {
          switch (reference >> 24) {\n",
     );
     for (i, format) in shapes.iter().enumerate() {
-        _ = writeln!(text, "    case {i}u: return image_texture(at, {}, context);", format.glsl_name());
+        _ = writeln!(text, "    case {i}u: return image_texture(at, {}u, context);", format.number());
     }
     text.push_str("    default: return vec4(0.0);\n    }\n}\n");
     text
@@ -117,11 +118,11 @@ fn record(texture: &scene::ImageTexture, image: &scene::Image, (base, pitch): (u
         Wrap::Black => WRAP_BLACK,
     };
     let channel = match texture.channel {
-        Channel::Rgb => 0,
-        Channel::R => 1,
-        Channel::G => 2,
-        Channel::B => 3,
-        Channel::A => 4,
+        Channel::Rgb => CHANNEL_RGB,
+        Channel::R => CHANNEL_R,
+        Channel::G => CHANNEL_G,
+        Channel::B => CHANNEL_B,
+        Channel::A => CHANNEL_A,
     };
     let nearest = if texture.filter == TexelFilter::Nearest { FLAG_NEAREST } else { 0 };
     let invert = if texture.invert { FLAG_INVERT } else { 0 };
@@ -134,7 +135,7 @@ fn record(texture: &scene::ImageTexture, image: &scene::Image, (base, pitch): (u
         uv_offset: uv.translation.to_array(),
         scale: texture.scale,
         flags: wrap(texture.wrap[0])
-            | wrap(texture.wrap[1]) << 2
+            | wrap(texture.wrap[1]) << WRAP_V_SHIFT
             | nearest
             | invert
             | channel << CHANNEL_SHIFT,

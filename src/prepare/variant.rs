@@ -2,7 +2,8 @@
 
 use super::Prepared;
 use crate::layout::{
-    Backend, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, STACK_ENTRIES,
+    Backend, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE,
+    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, STACK_ENTRIES,
 };
 use crate::scene::{FilterKind, Sampler, Scene};
 use std::collections::BTreeMap;
@@ -160,13 +161,20 @@ pub fn defines(
         flag("TEXTURED_ALPHA", features.textured_alpha);
         flag("TEXTURED_EMISSION", features.textured_emission);
         flag("HAS_LIGHTS", !prepared.lights.is_empty());
+        let light = |kind: u32| features.light_kinds & 1 << kind != 0;
+        flag("HAS_LIGHT_POINT", light(LIGHT_POINT));
+        flag("HAS_LIGHT_SPOT", light(LIGHT_SPOT));
+        flag("HAS_LIGHT_DISTANT", light(LIGHT_DISTANT));
+        flag("HAS_LIGHT_SPHERE", light(LIGHT_SPHERE));
+        flag("HAS_LIGHT_QUAD", light(LIGHT_QUAD));
+        flag("HAS_LIGHT_DISK", light(LIGHT_DISK));
+        flag("HAS_LIGHT_TRIANGLE", light(LIGHT_TRIANGLE));
         flag("HAS_ENVIRONMENT", features.environment);
         flag("ENVIRONMENT_IMAGE", features.environment_image);
         flag("ROULETTE", scene.render.russian_roulette);
         flag("GEOMETRIC_VETO", scene.render.geometric_veto);
         // Without an environment there is nothing to leave out: one variant less.
         flag("TRANSPARENT_FILM", scene.film.transparent && features.environment);
-        all.insert("LIGHT_KINDS".to_owned(), features.light_kinds.to_string());
     }
     if stage.traverses() {
         all.insert("TRAVERSAL_STACK".to_owned(), stack_size(prepared.stack_entries).to_string());

@@ -1,7 +1,7 @@
 //! The uniform block: what stays the same during a slice.
 
 use super::plan::{Slice, Tiles};
-use crate::layout::{Frame, ROUNDS_A_STEP};
+use crate::layout::{Frame, PATH_DEPTH_BITS, ROUNDS_A_STEP};
 use crate::prepare::{self, Prepared};
 use crate::scene::{Scene, Value};
 use glam::Vec3;
@@ -32,7 +32,7 @@ pub(super) fn of_scene(scene: &Scene, prepared: &Prepared, threads: u32) -> Fram
         tiles_x: Tiles::of(window).columns,
         threads,
         strata: render.strata,
-        max_depth: render.max_depth,
+        max_depth: render.max_depth.min((1 << PATH_DEPTH_BITS) - 1),
         diffuse_bounces: render.diffuse_bounces.unwrap_or(u32::MAX),
         root: prepared.root,
         step_limit: step_limit(prepared),

@@ -331,7 +331,7 @@ impl Run<'_> {
     }
 }
 
-/// Adds tiles, whose pixels are in Morton order and whose planes hold all of them, to the film.
+/// Adds tiles to the film. Each has its pixels row by row; each plane holds all tiles.
 fn add_tiles(sums: &mut Film, window: Rect, first: u32, count: u32, words: &[u32]) -> Result<()> {
     let columns = Tiles::of(window).columns;
     let pixels = count as usize * WORKGROUP as usize;
@@ -347,7 +347,7 @@ fn add_tiles(sums: &mut Film, window: Rect, first: u32, count: u32, words: &[u32
         for plane in 0..FILM_PLANES as usize {
             for y in 0..rect.height() {
                 for x in 0..rect.width() {
-                    let pixel = plane * pixels + (tile * WORKGROUP + morton(x, y)) as usize;
+                    let pixel = plane * pixels + (tile * WORKGROUP + y * TILE + x) as usize;
                     tile_words.extend_from_slice(&words[4 * pixel..4 * pixel + 4]);
                 }
             }
@@ -355,10 +355,4 @@ fn add_tiles(sums: &mut Film, window: Rect, first: u32, count: u32, words: &[u32
         sums.add(rect, &tile_words)?;
     }
     Ok(())
-}
-
-/// Lane of a pixel of a tile, as `tile_pixel` in `stages/wave.glsl` has it.
-fn morton(x: u32, y: u32) -> u32 {
-    let spread = |v: u32| v & 1 | (v & 2) << 1 | (v & 4) << 2;
-    spread(x) | spread(y) << 1
 }

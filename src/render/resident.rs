@@ -36,9 +36,4 @@ impl Resident {
     pub fn buffers(&self) -> impl Iterator<Item = (&'static str, &Arc<Buffer>)> {
         self.buffers.iter().map(|(name, buffer)| (*name, buffer))
     }
-
-    /// Bytes of all buffers.
-    pub fn bytes(&self) -> u64 {
-        self.buffers.iter().map(|(_, buffer)| buffer.bytes()).sum()
-    }
 }

@@ -1,5 +1,11 @@
 //! Size of the picture, pixel filter, samples and depth.
 
+/// Largest width and height of a picture, in pixels.
+pub const MAX_SIDE: u32 = 16384;
+
+/// Most samples a pixel: the sums of a film have room for so many of the largest sample.
+pub const MAX_SAMPLES: u32 = 1 << 20;
+
 /// A rectangle of pixels, half-open: columns `x0..x1`, rows `y0..y1`, row 0 on top.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rect {

@@ -12,7 +12,7 @@ mod store;
 mod texture;
 
 pub use camera::{Aperture, Camera, FovAxis, Lens};
-pub use film::{Film, Filter, FilterKind, Rect, Render, Sampler};
+pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub use light::{Environment, Light};
 pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Surface};

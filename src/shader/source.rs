@@ -97,11 +97,6 @@ impl Sources {
         self.virtual_files.contains_key(name)
     }
 
-    /// The folder to watch for changes, if files are read from one.
-    pub fn watched_folder(&self) -> Option<&Path> {
-        self.folder.as_deref()
-    }
-
     /// The names of all files, sorted. Unreadable folders count as empty.
     pub fn names(&self) -> BTreeSet<String> {
         let mut names: BTreeSet<String> = self.virtual_files.keys().cloned().collect();

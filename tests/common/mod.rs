@@ -3,6 +3,8 @@
 
 pub mod chi2;
 pub mod compare;
+pub mod directions;
+pub mod lights;
 pub mod probe;
 pub mod random;
 pub mod references;

@@ -147,6 +147,11 @@ pub fn floats(x: f32, y: f32, z: f32, w: f32) -> Word {
     [x.to_bits(), y.to_bits(), z.to_bits(), w.to_bits()]
 }
 
+/// A vector with one spare lane.
+pub fn vector(v: [f32; 3]) -> Word {
+    floats(v[0], v[1], v[2], 0.0)
+}
+
 /// The four floats of a word.
 pub fn as_floats(word: Word) -> [f32; 4] {
     word.map(f32::from_bits)
@@ -155,6 +160,11 @@ pub fn as_floats(word: Word) -> [f32; 4] {
 /// The four floats of a word, widened.
 pub fn as_doubles(word: Word) -> [f64; 4] {
     word.map(|bits| f64::from(f32::from_bits(bits)))
+}
+
+/// The first three of four numbers.
+pub fn three(v: [f64; 4]) -> [f64; 3] {
+    [v[0], v[1], v[2]]
 }
 
 /// Distance of two floats in units in the last place; 0 and −0 are the same.

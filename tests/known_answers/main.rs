@@ -10,8 +10,14 @@
 mod common;
 
 mod camera;
+mod emission;
+mod environment;
+mod floor;
+mod furnace;
 mod geometry;
+mod glass;
 mod light;
 mod paths;
 mod planes;
 mod texture;
+mod traversal;

@@ -6,11 +6,8 @@ use super::reader::Reader;
 use super::text::Limits;
 use super::view::View;
 use crate::Result;
-use crate::scene::{Film, Filter, FilterKind, Rect, Render, Sampler};
+use crate::scene::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 
-/// Largest width and height in pixels.
-const MAX_SIZE: u32 = 16384;
-const MAX_SPP: u32 = 1 << 20;
 const MAX_STRATA: u32 = 4096;
 const MAX_DEPTH: u32 = 1000;
 /// Stops beyond which the factor leaves 32-bit floats.
@@ -23,10 +20,10 @@ impl Reader<'_> {
         let view = View::new(self.sources, node, "[film]".into(), FILM)?;
         let mut film = Film::default();
         if let Some(size) = view.get("size") {
-            [film.width, film.height] = size.whole_numbers(1, MAX_SIZE)?;
+            [film.width, film.height] = size.whole_numbers(1, MAX_SIDE)?;
         }
         if let Some(item) = view.get("crop") {
-            let [x0, y0, x1, y1] = item.whole_numbers(0, MAX_SIZE)?;
+            let [x0, y0, x1, y1] = item.whole_numbers(0, MAX_SIDE)?;
             let shown = format!("[{x0}, {y0}, {x1}, {y1}]");
             if x0 >= x1 || y0 >= y1 {
                 return Err(item.refuse(shown, "[x0, y0, x1, y1] with x0 below x1 and y0 below y1"));
@@ -73,7 +70,7 @@ impl Reader<'_> {
             ("center", Sampler::Center),
         ];
         self.scene.render = Render {
-            spp: view.u32_or("spp", default.spp, 1, MAX_SPP)?,
+            spp: view.u32_or("spp", default.spp, 1, MAX_SAMPLES)?,
             seed: view.u32_or("seed", default.seed, 0, u32::MAX)?,
             sampler: view.choice_or("sampler", default.sampler, &samplers)?,
             strata: match view.get("strata") {

@@ -25,6 +25,11 @@ pub fn wide(a: [f32; 3]) -> [f64; 3] {
     a.map(f64::from)
 }
 
+/// From one point to another, in the floats that a kernel is given.
+pub fn towards(origin: [f32; 3], target: [f32; 3]) -> [f32; 3] {
+    [0, 1, 2].map(|i| target[i] - origin[i])
+}
+
 /// One coordinate of `offset_ray_origin` (Wächter and Binder, Ray Tracing Gems, chapter 6).
 pub fn offset(p: f32, n: f32) -> f32 {
     if p.abs() < 1.0 / 32.0 {

@@ -6,4 +6,5 @@ pub mod fresnel;
 pub mod geometry;
 pub mod math;
 pub mod random;
+pub mod sampling;
 pub mod texture;

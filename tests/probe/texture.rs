@@ -1,9 +1,7 @@
 //! `shaders/texture/image.glsl`: the sRGB curve and every wrap mode.
 
-mod common;
-
-use common::probe::{Probe, Word, as_doubles, floats};
-use common::twins::texture;
+use crate::common::probe::{Probe, Word, as_doubles, floats};
+use crate::common::twins::texture;
 use dapple::layout::{WRAP_BLACK, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT};
 
 #[test]

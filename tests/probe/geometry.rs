@@ -1,11 +1,9 @@
-//! `shaders/geometry`: ray against triangle, sphere and disk; no ray slips between triangles.
+//! `shaders/geometry/triangle.glsl`: ray against triangle; no ray slips between triangles.
 
-mod common;
-
-use common::probe::{Probe, Word, as_doubles, as_floats, floats};
-use common::random::Random;
-use common::twins::geometry;
-use common::twins::math::{cross, length, sub, wide};
+use crate::common::probe::{Probe, Word, as_doubles, vector};
+use crate::common::random::Random;
+use crate::common::twins::geometry;
+use crate::common::twins::math::{cross, length, sub, towards, wide};
 
 type Point = [f32; 3];
 
@@ -13,11 +11,6 @@ struct Case {
     triangle: [Point; 3],
     origin: Point,
     direction: Point,
-}
-
-/// A vertex or direction with one spare lane.
-fn word(p: Point) -> Word {
-    floats(p[0], p[1], p[2], 0.0)
 }
 
 fn hits(cases: &[Case]) -> Vec<(bool, [f64; 3])> {
@@ -35,8 +28,8 @@ fn hits(cases: &[Case]) -> Vec<(bool, [f64; 3])> {
         }";
     let mut inputs: Vec<Word> = Vec::with_capacity(5 * cases.len());
     for case in cases {
-        inputs.extend(case.triangle.iter().map(|p| word(*p)));
-        inputs.extend([word(case.origin), word(case.direction)]);
+        inputs.extend(case.triangle.iter().map(|p| vector(*p)));
+        inputs.extend([vector(case.origin), vector(case.direction)]);
     }
     let values = Probe::new().both(glsl, &inputs, cases.len(), cases.len());
     values
@@ -51,10 +44,6 @@ fn hits(cases: &[Case]) -> Vec<(bool, [f64; 3])> {
 /// A point of a triangle by barycentric coordinates.
 fn point_in([a, b, c]: [Point; 3], u: f32, v: f32) -> Point {
     [0, 1, 2].map(|i| a[i] * (1.0 - u - v) + b[i] * u + c[i] * v)
-}
-
-fn towards(origin: Point, target: Point) -> Point {
-    [0, 1, 2].map(|i| target[i] - origin[i])
 }
 
 #[test]
@@ -162,9 +151,9 @@ fn misses(vertices: &[Point], triangles: &[[usize; 3]], rays: &[(Point, Point)],
     for (i, (o, d)) in rays.iter().enumerate() {
         let first = (i % groups * around) as u32;
         inputs.push([o[0].to_bits(), o[1].to_bits(), o[2].to_bits(), first]);
-        inputs.push(word(*d));
+        inputs.push(vector(*d));
     }
-    inputs.extend(triangles.iter().flatten().map(|&v| word(vertices[v])));
+    inputs.extend(triangles.iter().flatten().map(|&v| vector(vertices[v])));
     let values = Probe::new().both(&glsl, &inputs, rays.len(), rays.len());
     values.iter().filter(|v| v[0] == 0).count()
 }
@@ -292,120 +281,4 @@ fn no_ray_slips_between_triangles_of_a_grid() {
             .collect();
         assert_eq!(misses(&grid, &triangles, &oblique, triangles.len()), 0);
     }
-}
-
-#[test]
-fn spheres_are_hit_where_doubles_say() {
-    let glsl = "#include \"geometry/quadric.glsl\"
-        void probe(uint i) {
-            vec3 o = uintBitsToFloat(fetch_points(2u * i).xyz);
-            vec4 d = uintBitsToFloat(fetch_points(2u * i + 1u));
-            float t;
-            bool hit = sphere_hit(o, d.xyz, d.w, t);
-            store_values(i, uvec4(hit ? 1u : 0u, floatBitsToUint(t), 0u, 0u));
-        }";
-    let mut random = Random(6);
-    let mut inputs: Vec<Word> = Vec::new();
-    for i in 0..100_000 {
-        let size = if i % 3 == 0 { 0.57 } else { random.between(0.0, 6.0).exp2() };
-        let origin = random.cube(size);
-        let aim = random.cube(1.2);
-        let scale = random.between(-5.0, 5.0).exp2();
-        let d = towards(origin, aim).map(|c| c * scale);
-        let limit = if i % 2 == 0 { 3e38 } else { random.f32() * 2.0 / scale };
-        inputs.extend([word(origin), floats(d[0], d[1], d[2], limit)]);
-    }
-    // Known: head-on, from the centre, from behind, past
-    let known = [
-        ([0.0, 0.0, 3.0], [0.0, 0.0, -1.0], Some(2.0)),
-        ([0.0, 0.0, 0.0], [0.0, 2.0, 0.0], Some(0.5)),
-        ([0.0, 0.0, 3.0], [0.0, 0.0, 1.0], None),
-        ([0.0, 1.5, 3.0], [0.0, 0.0, -1.0], None),
-        ([0.5, 0.0, 0.0], [1.0, 0.0, 0.0], Some(0.5)),
-        ([0.5, 0.0, 0.0], [-1.0, 0.0, 0.0], Some(1.5)),
-    ];
-    for (o, d, _) in known {
-        inputs.extend([word(o), floats(d[0], d[1], d[2], 3e38)]);
-    }
-    let count = inputs.len() / 2;
-    let values = Probe::new().both(glsl, &inputs, count, count);
-    for ((o, _, t), value) in known.iter().zip(&values[count - known.len()..]) {
-        assert_eq!((value[0] == 1).then(|| as_floats(*value)[1]), *t, "from {o:?}");
-    }
-    let mut seen = [0; 2];
-    for (input, value) in inputs.chunks_exact(2).zip(&values) {
-        let ([ox, oy, oz, _], [dx, dy, dz, limit]) = (as_doubles(input[0]), as_doubles(input[1]));
-        let (o, d) = ([ox, oy, oz], [dx, dy, dz]);
-        let (roots, miss) = geometry::sphere_hit(o, d);
-        // The closest point is known to a few ulp of the distance of the origin
-        let slack = 4e-7 * (1.0 + length(o));
-        let expected = roots.and_then(|r| r.into_iter().find(|t| *t > 0.0));
-        let near_zero = roots.is_some_and(|r| r.iter().any(|t| (t * length(d)).abs() < 4.0 * slack));
-        let near_limit = expected.is_some_and(|t| ((t - limit) * length(d)).abs() < 100.0 * slack);
-        // How much a miss distance near 1 spreads the roots
-        if (miss - 1.0).abs() < 2.0 * slack || near_zero || near_limit {
-            continue;
-        }
-        let expected = expected.filter(|t| *t < limit);
-        assert_eq!(value[0] == 1, expected.is_some(), "{o:?} {d:?} {miss} {roots:?} {limit}");
-        seen[usize::from(expected.is_some())] += 1;
-        if let Some(t) = expected {
-            let got = as_doubles(*value)[1];
-            let spread = slack * (1.0 + 1.0 / (1.0 - miss * miss).max(slack).sqrt());
-            assert!(((got - t) * length(d)).abs() < 2.0 * spread, "{got} not {t}: {o:?} {d:?}");
-        }
-    }
-    assert!(seen[0] > 10_000 && seen[1] > 30_000, "{seen:?}");
-}
-
-#[test]
-fn disks_are_hit_where_doubles_say() {
-    let glsl = "#include \"geometry/quadric.glsl\"
-        void probe(uint i) {
-            vec3 o = uintBitsToFloat(fetch_points(2u * i).xyz);
-            vec4 d = uintBitsToFloat(fetch_points(2u * i + 1u));
-            float t;
-            bool hit = disk_hit(o, d.xyz, d.w, t);
-            store_values(i, uvec4(hit ? 1u : 0u, floatBitsToUint(t), 0u, 0u));
-        }";
-    let mut random = Random(7);
-    let mut inputs: Vec<Word> = Vec::new();
-    for i in 0..100_000 {
-        let size = random.between(0.0, 6.0).exp2();
-        let origin = random.cube(size);
-        let aim = [random.between(-1.2, 1.2), random.between(-1.2, 1.2), 0.0];
-        let scale = random.between(-5.0, 5.0).exp2() * if i % 4 == 0 { -1.0 } else { 1.0 };
-        let d = towards(origin, aim).map(|c| c * scale);
-        let limit = if i % 2 == 0 { 3e38 } else { random.f32() * 2.0 / scale.abs() };
-        inputs.extend([word(origin), floats(d[0], d[1], d[2], limit)]);
-    }
-    // In the plane, and parallel to it: never
-    let never = [
-        ([3.0, 0.0, 0.0], [-1.0, 0.0, 0.0]),
-        ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]),
-        ([0.0, 0.0, 0.0], [0.0, 1.0, -0.0]),
-    ];
-    for (o, d) in never {
-        inputs.extend([word(o), floats(d[0], d[1], d[2], 3e38)]);
-    }
-    let count = inputs.len() / 2;
-    let values = Probe::new().both(glsl, &inputs, count, count);
-    assert!(values[count - never.len()..].iter().all(|v| v[0] == 0));
-    let mut seen = [0; 2];
-    for (input, value) in inputs.chunks_exact(2).zip(&values).take(count - never.len()) {
-        let ([ox, oy, oz, _], [dx, dy, dz, limit]) = (as_doubles(input[0]), as_doubles(input[1]));
-        let t = -oz / dz;
-        let p = [ox + t * dx, oy + t * dy];
-        let radius = p[0].hypot(p[1]);
-        let slack = 4e-7 * (1.0 + length([ox, oy, oz]));
-        if (radius - 1.0).abs() < slack || (t / limit - 1.0).abs() < 1e-6 {
-            continue;
-        }
-        let expected = t > 0.0 && t < limit && radius < 1.0;
-        assert_eq!(value[0] == 1, expected, "{input:?}");
-        seen[usize::from(expected)] += 1;
-        // A division: 2.5 ulp
-        assert!(!expected || (as_doubles(*value)[1] / t - 1.0).abs() < 4e-7);
-    }
-    assert!(seen[0] > 10_000 && seen[1] > 10_000, "{seen:?}");
 }

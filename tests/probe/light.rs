@@ -1,75 +1,16 @@
 //! `shaders/light`: points lie on the light, densities are those of light_pdf, and solid angles are those of closed forms.
 
-mod common;
-
-use common::chi2;
-use common::probe::{Probe, Word, as_doubles, floats};
-use common::random::Random;
-use common::twins::math::{cross, dot, length, normalize, sub, wide};
-use dapple::layout::{
-    LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE, Light, NONE,
+use crate::common::chi2;
+use crate::common::lights::{Sample, flat, light, samples, sphere};
+use crate::common::random::Random;
+use crate::common::twins::math::{cross, dot, length, normalize, sub, wide};
+use crate::common::twins::sampling::{
+    DISK_ERROR, disk_inverse, sphere_inverse, triangle_inverse, turn, turns_apart,
 };
+use dapple::layout::{LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPOT, LIGHT_TRIANGLE, Light};
 use std::f64::consts::{PI, TAU};
 
-const HEADER: usize = 8;
 const COUNT: usize = 100_000;
-
-/// One sample of a light.
-struct Sample {
-    u01: [f64; 2],
-    wi: [f64; 3],
-    pdf: f64,
-    point: [f64; 3],
-    pdf_again: f64,
-    normal: [f64; 3],
-    radiance: f64,
-}
-
-fn three(v: [f64; 4]) -> [f64; 3] {
-    [v[0], v[1], v[2]]
-}
-
-fn samples(light: &Light, from: [f32; 3], count: usize) -> Vec<Sample> {
-    let glsl = "
-        #define LIGHT_KINDS 127
-        #include \"light/light.glsl\"
-        Light probe_light() {
-            return light_unpack(fetch_points(0u), fetch_points(1u), fetch_points(2u), fetch_points(3u),
-                                fetch_points(4u), fetch_points(5u), fetch_points(6u));
-        }
-        void probe(uint i) {
-            Light light = probe_light();
-            vec3 from = uintBitsToFloat(fetch_points(7u).xyz);
-            LightSample s = light_sample_one(light, from, uintBitsToFloat(fetch_points(8u + i).xy));
-            float pdf = 0.0;
-            if (light.kind == LIGHT_SPHERE) pdf = sphere_light_pdf(light, from, s.point, s.normal);
-            else if (light.kind == LIGHT_QUAD) pdf = quad_light_pdf(light, from, s.point, s.normal);
-            else pdf = flat_light_pdf(light, from, s.point, s.normal);
-            store_values(3u * i, floatBitsToUint(vec4(s.wi, s.pdf)));
-            store_values(3u * i + 1u, floatBitsToUint(vec4(s.point, pdf)));
-            store_values(3u * i + 2u, floatBitsToUint(vec4(s.normal, s.radiance.x)));
-        }";
-    let mut inputs: Vec<Word> = bytemuck::cast_slice(std::slice::from_ref(light)).to_vec();
-    inputs.push(floats(from[0], from[1], from[2], 0.0));
-    assert_eq!(inputs.len(), HEADER);
-    let mut random = Random(1);
-    inputs.extend((0..count).map(|_| floats(random.f32(), random.f32(), 0.0, 0.0)));
-    let values = Probe::new().both(glsl, &inputs, count, 3 * count);
-    let sample = |(v, u): (&[Word], &Word)| {
-        let [a, b, c] = [v[0], v[1], v[2]].map(as_doubles);
-        let [x, y, ..] = as_doubles(*u);
-        Sample {
-            u01: [x, y],
-            wi: three(a),
-            pdf: a[3],
-            point: three(b),
-            pdf_again: b[3],
-            normal: three(c),
-            radiance: c[3],
-        }
-    };
-    values.chunks_exact(3).zip(&inputs[HEADER..]).map(sample).collect()
-}
 
 /// Checks what holds for every point on a surface light, and gives the mean of 1 / pdf over all samples.
 fn check(
@@ -113,28 +54,6 @@ fn expect_solid_angle(place: &str, all: &[Sample], mean: f64, solid_angle: f64, 
     assert!((mean - solid_angle).abs() < tolerance, "{place}: {mean} ± {sigma}, not {solid_angle}");
 }
 
-fn light(kind: u32) -> Light {
-    Light { kind, chance: 1.0, accept: 1.0, radiance: [3.0; 3], texture: NONE, ..Light::default() }
-}
-
-fn sphere(position: [f32; 3], radius: f32, two_sided: u32) -> Light {
-    let area = (4.0 * PI * f64::from(radius).powi(2)) as f32;
-    // Its axes are those of the world; the third is spread over the uv fields
-    let (edge_u, edge_v) = ([radius, 0.0, 0.0], [0.0, radius, 0.0]);
-    let uv1 = [radius, 0.0];
-    Light { position, edge_u, edge_v, uv1, a: radius, b: area, two_sided, ..light(LIGHT_SPHERE) }
-}
-
-fn flat(kind: u32, position: [f32; 3], edge_u: [f32; 3], edge_v: [f32; 3]) -> Light {
-    let area = length(cross(wide(edge_u), wide(edge_v)));
-    let share = match kind {
-        LIGHT_DISK => PI,
-        LIGHT_TRIANGLE => 0.5,
-        _ => 1.0,
-    };
-    Light { position, edge_u, edge_v, a: 1.0, b: (area * share) as f32, ..light(kind) }
-}
-
 #[test]
 fn spheres_from_outside_fill_their_cone() {
     let mut results = Vec::new();
@@ -169,6 +88,10 @@ fn spheres_from_outside_fill_their_cone() {
             normalize(cross(tall, if tall[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] }));
         let other = cross(tall, side);
         let mut counts = vec![0_u64; 256];
+        // A direction is known to a rounding, of which a small sphere is few; near the surface the way to it is short
+        let sin_max = r / distance;
+        let tolerance = 2e-6 + 6e-7 / sin_max + 1e-7 / (1.0 - sin_max);
+        let mut zero = None;
         for s in all.iter().filter(|s| s.pdf > 0.0) {
             let on = sub(s.point, center);
             assert!((length(on) / r - 1.0).abs() < 2e-5, "{place}: {:?} is off the sphere", s.point);
@@ -176,8 +99,12 @@ fn spheres_from_outside_fill_their_cone() {
             // The cosine is uniform over the cone; it comes from the angle across, which keeps its digits
             let across = length(cross(s.wi, tall));
             let share = across * across / (1.0 + (1.0 - across * across).max(0.0).sqrt()) / (1.0 - cos_max);
-            let turn = (dot(s.wi, other).atan2(dot(s.wi, side)) / TAU).rem_euclid(1.0);
-            counts[((share * 16.0) as usize).min(15) * 16 + ((turn * 16.0) as usize).min(15)] += 1;
+            let angle = turn(dot(s.wi, side), -dot(s.wi, other));
+            counts[((share * 16.0) as usize).min(15) * 16 + ((angle * 16.0) as usize).min(15)] += 1;
+            // Back to the square, whose zero of the angle is anywhere
+            let zero = *zero.get_or_insert((angle - s.u01[1]).rem_euclid(1.0));
+            let off = (share - s.u01[0]).abs().max(turns_apart(angle, s.u01[1] + zero) * across / sin_max);
+            assert!(off < tolerance, "{place}: {:?} comes back as {share}, {angle} - {zero}", s.u01);
         }
         // A cone of 0.3° has its directions on a grid of floats: too coarse to count
         if r / distance > 0.01 {
@@ -198,6 +125,67 @@ fn spheres_from_inside() {
         // One that shines outward only is dark in there
         assert!(samples(&sphere([0.0; 3], radius, 0), from, 256).iter().all(|s| s.pdf == 0.0));
     }
+}
+
+#[test]
+fn ellipsoids_are_uniform_over_the_ball_that_they_come_from() {
+    let (center, from) = ([0.4, 2.0, -0.3_f32], [-0.5, 0.2, 0.1_f32]);
+    // Upright, turned and mirrored
+    for axes in [
+        [[1.2, 0.0, 0.0], [0.0, 0.4, 0.0], [0.0, 0.0, 0.7]],
+        [[0.6, 0.8, 0.0], [-0.4, 0.3, 0.2], [0.1, -0.1, 0.5]],
+        [[-0.9, 0.0, 0.1], [0.0, 0.5, 0.0], [0.0, 0.2, 0.6_f32]],
+    ] {
+        let place = format!("ellipsoid {axes:?}");
+        let [u, v, w] = axes.map(wide);
+        let determinant = dot(u, cross(v, w));
+        let [edge_u, edge_v, third] = axes;
+        let light = Light {
+            edge_u,
+            edge_v,
+            uv0: [third[0], third[1]],
+            uv1: [third[2], 0.0],
+            a: 0.0,
+            ..sphere(center, 1.0, 1)
+        };
+        // Of a point of the ellipsoid, the one of the unit ball
+        let back = |p: [f64; 3]| {
+            let on = sub(p, wide(center));
+            [dot(cross(v, w), on), dot(cross(w, u), on), dot(cross(u, v), on)].map(|c| c / determinant)
+        };
+        let normal_at = |p: [f64; 3]| {
+            let n = back(p);
+            let sum = |c: usize| cross(v, w)[c] * n[0] + cross(w, u)[c] * n[1] + cross(u, v)[c] * n[2];
+            normalize([0, 1, 2].map(sum).map(|c| c * determinant.signum()))
+        };
+        let all = samples(&light, from, COUNT);
+        let mean = check(&place, &light, from, &all, normal_at);
+        // A ray meets the ellipsoid where its image meets the ball. It shines on both sides: what is behind counts, too
+        let seen = solid_angle_of(|d| {
+            let (o, d) = (back(wide(from)), back([0, 1, 2].map(|c| d[c] + f64::from(center[c]))));
+            let (b, c) = (dot(o, d), dot(o, o) - 1.0);
+            b < 0.0 && b * b > dot(d, d) * c
+        });
+        expect_solid_angle(&place, &all, mean, 2.0 * seen, 2e-3);
+        for s in all.iter().filter(|s| s.pdf > 0.0) {
+            let n = back(s.point);
+            let [a, b] = sphere_inverse(n);
+            let off = (a - s.u01[0]).abs().max(turns_apart(b, s.u01[1]) * n[0].hypot(n[1]));
+            assert!(off < 1e-6, "{place}: {:?} comes back as {a}, {b}", s.u01);
+        }
+    }
+}
+
+/// Solid angle of the directions that fulfil a condition, by the midpoints of a grid.
+fn solid_angle_of(holds: impl Fn([f64; 3]) -> bool) -> f64 {
+    let n = 2000;
+    let at = |i: usize| (i as f64 + 0.5) / n as f64;
+    let direction = |i: usize| {
+        let (z, phi) = (1.0 - 2.0 * at(i / n), TAU * at(i % n));
+        let r = (1.0 - z * z).sqrt();
+        [r * phi.cos(), r * phi.sin(), z]
+    };
+    4.0 * PI * (0..n * n).filter(|&i| holds(direction(i))).count() as f64 / (n * n) as f64
 }
 
 /// Solid angle of an axis-aligned part of a rectangle at distance z, by the arctangent of its four corners.
@@ -247,6 +235,14 @@ fn rectangles_are_uniform_over_their_solid_angle() {
             );
             let cell = |t: f64| ((t * cells as f64).max(0.0) as usize).min(cells - 1);
             counts[cell(x) * cells + cell(y)] += 1;
+            // Back to the square: the part of the solid angle before x, known to 1e-6, and of the sines at x before y
+            let to_x = x0 + x * lu;
+            let height = |y: f64| y / (to_x * to_x + z * z + y * y).sqrt();
+            let [from_y, to_y, at_y] = [y0, y0 + lv, y0 + y * lv].map(height);
+            let back =
+                [corner_angle([x0, to_x], [y0, y0 + lv], z) / whole, (at_y - from_y) / (to_y - from_y)];
+            let off = (back[0] - s.u01[0]).abs().max((back[1] - s.u01[1]).abs());
+            assert!(off < 4e-6 + 1e-6 / whole, "{place}: {:?} comes back as {back:?}", s.u01);
         }
         let step = 1.0 / cells as f64;
         let part = |i: usize, at: f64, l: f64| [at + l * i as f64 * step, at + l * (i + 1) as f64 * step];
@@ -314,6 +310,9 @@ fn parallelograms_disks_and_triangles_have_the_solid_angle_of_their_closed_form(
                     "{place}: {x} {y} {:?}",
                     s.u01
                 );
+                let back = if kind == LIGHT_TRIANGLE { triangle_inverse(x, y) } else { [x, y] };
+                let off = (back[0] - s.u01[0]).abs().max((back[1] - s.u01[1]).abs());
+                assert!(off < 2e-6, "{place}: {:?} comes back as {back:?}", s.u01);
             }
             // From behind, a light that shines on one side is dark
             let behind = dot(normal, p) > 0.0;
@@ -329,6 +328,11 @@ fn parallelograms_disks_and_triangles_have_the_solid_angle_of_their_closed_form(
         let (h, r) = (f64::from(height), f64::from(radius));
         expect_solid_angle(&place, &all, mean, TAU * (1.0 - h / h.hypot(r)), 1e-4);
         assert!(all.iter().all(|s| s.point[0].hypot(s.point[1]) < r * (1.0 + 1e-6) && s.point[2] == h));
+        for s in &all {
+            let back = disk_inverse(s.point[0] / r, -s.point[1] / r);
+            let off = (back[0] - s.u01[0]).abs().max((back[1] - s.u01[1]).abs());
+            assert!(off < DISK_ERROR, "{place}: {:?} comes back as {back:?}", s.u01);
+        }
         // Irradiance of a parallel disk: π L r² / (r² + h²)
         let irradiance = all.iter().map(|s| s.radiance * s.wi[2] / s.pdf).sum::<f64>() / COUNT as f64;
         let expected = 3.0 * PI * r * r / (r * r + h * h);

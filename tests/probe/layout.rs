@@ -1,8 +1,6 @@
 //! Records by value: what the generated GLSL reads in each field is what Rust put there.
 
-mod common;
-
-use common::probe::{Probe, UNWRITTEN, Word};
+use crate::common::probe::{Probe, UNWRITTEN, Word};
 use dapple::layout::{Backend, Field, Frame, RECORDS, RecordInfo};
 use std::fmt::Write as _;
 

@@ -1,10 +1,11 @@
 //! `shaders/base/sampling.glsl`: every routine inverted, or its points counted against its density.
 
-mod common;
-
-use common::chi2;
-use common::probe::{Probe, Word, as_doubles, floats};
-use common::random::Random;
+use crate::common::chi2;
+use crate::common::probe::{Probe, Word, as_doubles, floats};
+use crate::common::random::Random;
+use crate::common::twins::sampling::{
+    DISK_ERROR, disk_inverse, sphere_inverse, triangle_inverse, turn, turns_apart,
+};
 use std::f64::consts::{PI, TAU};
 
 const COUNT: usize = 200_000;
@@ -48,9 +49,11 @@ fn square_counts(points: impl Iterator<Item = [f64; 2]>) -> Vec<u64> {
     counts
 }
 
-/// An angle as a share of a turn, in [0, 1).
-fn turn(x: f64, y: f64) -> f64 {
-    (y.atan2(x) / TAU).rem_euclid(1.0)
+#[track_caller]
+fn expect_disk_inverse([u, v]: [f64; 2], [x, y]: [f64; 2]) {
+    let [a, b] = disk_inverse(x, y);
+    let error = (a - u).abs().max((b - v).abs());
+    assert!(error < DISK_ERROR, "({u}, {v}): ({x}, {y}) comes back as ({a}, {b})");
 }
 
 #[test]
@@ -61,26 +64,14 @@ fn disk_points_are_uniform_and_go_back_to_the_square() {
         let [u, v, ..] = as_doubles(*input);
         let r = x.hypot(*y);
         assert!(r <= 1.0 + 1e-6);
-        // The inverse of Shirley and Chiu: the radius is the greater of |a| and |b|, the angle gives the other
-        let angle = y.atan2(*x);
-        let (a, b) = if x.abs() > y.abs() {
-            let a = r * x.signum();
-            (a, a * (y / x).atan() * 4.0 / PI)
-        } else {
-            let b = r * if *y < 0.0 { -1.0 } else { 1.0 };
-            let off = if r == 0.0 { 0.0 } else { (x / y).atan() };
-            (b * off * 4.0 / PI, b)
-        };
-        // Vulkan allows sin and cos an absolute error of 2⁻¹¹; no driver known comes near, so a tenth of that
-        let error = (a - (2.0 * u - 1.0)).abs().max((b - (2.0 * v - 1.0)).abs());
-        assert!(error < 5e-5, "({u}, {v}) at {angle}: ({x}, {y}) comes back wrong by {error}");
+        expect_disk_inverse([u, v], [*x, *y]);
     }
     let counts = square_counts(points.iter().map(|[x, y, ..]| [x * x + y * y, turn(*x, *y)]));
     chi2::accept(&[("disk".into(), chi2::test_uniform(&counts))]);
 }
 
 #[test]
-fn polygon_points_are_uniform() {
+fn polygon_points_are_uniform_and_go_back_to_the_square() {
     let inputs = uniforms(2);
     let mut results = Vec::new();
     for (corners, rotation) in [(3, 0.0), (5, 0.3), (6, -1.0), (8, 7.0_f64)] {
@@ -90,7 +81,8 @@ fn polygon_points_are_uniform() {
         let (apothem, half_side) = ((PI / n).cos(), (PI / n).sin());
         let mut sides = vec![0_u64; corners];
         let mut on_side = vec![Vec::new(); corners];
-        for [x, y, ..] in &points {
+        for (input, [x, y, ..]) in inputs.iter().zip(&points) {
+            let [u, v, ..] = as_doubles(*input);
             let side = ((turn(*x, *y) - rotation / TAU).rem_euclid(1.0) * n) as usize % corners;
             let middle = (side as f64 + 0.5) / n * TAU + rotation;
             let out = x * middle.cos() + y * middle.sin();
@@ -99,6 +91,11 @@ fn polygon_points_are_uniform() {
             assert!(share <= 1.0 + 1e-5, "{corners} corners: ({x}, {y}) is outside");
             sides[side] += 1;
             let at = if share > 0.0 { 0.5 + along / (2.0 * half_side * share) } else { 0.5 };
+            // At a corner rounding decides the side: the other one has the same point at its other end
+            let corner = at.min(1.0 - at) < 1e-4 || share < 1e-4;
+            let back = (side as f64 + share * share) / n;
+            assert!(corner || (back - u).abs() < 2e-6, "{corners} corners: {u} comes back as {back}");
+            assert!(corner || (at - v).abs() * share < 2e-6, "{corners} corners: {v} comes back as {at}");
             on_side[side].push([share * share, at.clamp(0.0, 1.0)]);
         }
         results.push((format!("sides of {corners}"), chi2::test_uniform(&sides)));
@@ -112,7 +109,7 @@ fn polygon_points_are_uniform() {
 }
 
 #[test]
-fn hemisphere_and_sphere_follow_their_densities() {
+fn hemisphere_and_sphere_follow_their_densities_and_go_back_to_the_square() {
     let inputs = uniforms(3);
     let hemisphere = sample(
         "vec4(cosine_hemisphere_sample(u.xy), cosine_hemisphere_pdf(cosine_hemisphere_sample(u.xy).z))",
@@ -122,15 +119,19 @@ fn hemisphere_and_sphere_follow_their_densities() {
         assert!((x * x + y * y + z * z - 1.0).abs() < 1e-5 && *z >= 0.0, "{x} {y} {z}");
         assert!((pdf - z / PI).abs() < 1e-6);
     }
+    for (input, [x, y, ..]) in inputs.iter().zip(&hemisphere) {
+        let [u, v, ..] = as_doubles(*input);
+        expect_disk_inverse([u, v], [*x, *y]);
+    }
     // cos² θ is uniform when the density is cos θ / π
     let counts = square_counts(hemisphere.iter().map(|[x, y, z, _]| [z * z, turn(*x, *y)]));
     let sphere = sample("vec4(sphere_sample(u.xy), 0.0)", &inputs);
     for (input, [x, y, z, _]) in inputs.iter().zip(&sphere) {
         let [u, v, ..] = as_doubles(*input);
         assert!((x * x + y * y + z * z - 1.0).abs() < 1e-5);
-        assert!((u - (1.0 - z) / 2.0).abs() < 1e-6);
-        let apart = (v - turn(*x, *y) + 0.5).rem_euclid(1.0) - 0.5;
-        assert!(apart.abs() * (1.0 - z * z).sqrt() < 1e-5, "{u} {v}");
+        let back = sphere_inverse([*x, *y, *z]);
+        assert!((u - back[0]).abs() < 1e-6);
+        assert!(turns_apart(v, back[1]) * (1.0 - z * z).sqrt() < 1e-5, "{u} {v}");
     }
     let sphere = square_counts(sphere.iter().map(|[x, y, z, _]| [(1.0 - z) / 2.0, turn(*x, *y)]));
     chi2::accept(&[
@@ -140,8 +141,13 @@ fn hemisphere_and_sphere_follow_their_densities() {
 }
 
 #[test]
-fn triangle_points_are_uniform() {
-    let points = sample("vec4(triangle_sample(u.xy), 0.0, 0.0)", &uniforms(4));
+fn triangle_points_are_uniform_and_go_back_to_the_square() {
+    let inputs = uniforms(4);
+    let points = sample("vec4(triangle_sample(u.xy), 0.0, 0.0)", &inputs);
+    for (input, [b, c, ..]) in inputs.iter().zip(&points) {
+        let ([u, v, ..], back) = (as_doubles(*input), triangle_inverse(*b, *c));
+        assert!((back[0] - u).abs().max((back[1] - v).abs()) < 2e-7, "({u}, {v}) comes back as {back:?}");
+    }
     let counts = square_counts(points.iter().map(|[b, c, ..]| {
         assert!(*b >= 0.0 && *c >= 0.0 && b + c <= 1.0, "{b} {c}");
         // Of all points, (1 − b)² have a second coordinate beyond b; the third is then uniform

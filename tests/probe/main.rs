@@ -1,0 +1,17 @@
+//! GLSL functions, one by one, against their twins in Rust or what they must be, through `shaders/probe.comp`.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod base;
+mod choice;
+mod fresnel;
+mod geometry;
+mod ggx;
+mod layout;
+mod light;
+mod material;
+mod quadric;
+mod random;
+mod sampling;
+mod texture;
