@@ -11,7 +11,7 @@ use crate::layout::{
     INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
     LEAF_INSTANCE, NONE, Triangle, Vertex,
 };
-use crate::scene::{Mesh, Scene, Shape, ShapeKind};
+use crate::scene::{Handle, Material, Mesh, Scene, Shape, ShapeKind};
 use crate::{Error, Result};
 use glam::{Affine3A, Mat3A, Vec2, Vec3};
 
@@ -271,7 +271,7 @@ fn push_triangles(
             a: position(a),
             instance: instance.unwrap_or(NONE),
             b: position(b),
-            material: materials.get(i).copied().unwrap_or(NONE),
+            material: materials.get(i).copied().flatten().map_or(NONE, |material| material.index() as u32),
             c: position(c),
             primitive: i as u32,
             vertices,
@@ -288,17 +288,15 @@ fn normal_map(map: &Affine3A) -> Mat3A {
     if longest > 0.0 { m * (1.0 / longest) } else { m }
 }
 
-/// Material of each triangle; empty when no part has one of its own.
-fn part_materials(mesh: &Mesh) -> Vec<u32> {
+/// Material of each triangle, none for that of the instance; empty when no part has one of its own.
+pub(super) fn part_materials(mesh: &Mesh) -> Vec<Option<Handle<Material>>> {
     if mesh.parts.iter().all(|part| part.material.is_none()) {
         return Vec::new();
     }
-    let mut materials = vec![NONE; mesh.triangles.len()];
+    let mut materials = vec![None; mesh.triangles.len()];
     for part in &mesh.parts {
-        if let (Some(material), Some(slots)) =
-            (part.material, materials.get_mut(part.triangles.start as usize..part.triangles.end as usize))
-        {
-            slots.fill(material.index() as u32);
+        if let Some(slots) = materials.get_mut(part.triangles.start as usize..part.triangles.end as usize) {
+            slots.fill(part.material);
         }
     }
     materials

@@ -1,6 +1,6 @@
 //! The table of lights, chosen by power.
 
-use super::geometry::{Placed, Source};
+use super::geometry::{Placed, Source, part_materials};
 use super::textures::References;
 use super::{Prepared, alias};
 use crate::layout::{
@@ -125,17 +125,13 @@ fn is_sphere(x: Vec3, y: Vec3, z: Vec3) -> bool {
 fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References, entries: &mut Vec<Entry>) {
     let instance = &scene.instances[index];
     let mesh = &scene.meshes[instance.mesh];
-    let of_part = |triangle: usize| {
-        let part = mesh.parts.iter().find(|part| part.triangles.contains(&(triangle as u32)));
-        part.and_then(|part| part.material).unwrap_or(instance.material)
-    };
-    let uniform = mesh.parts.iter().all(|part| part.material.is_none());
     let shines = |material| scene.materials[material].emission.is_some();
     if !shines(instance.material) && !mesh.parts.iter().filter_map(|part| part.material).any(shines) {
         return;
     }
+    let materials = part_materials(mesh);
     for i in 0..mesh.triangles.len() {
-        let material = if uniform { instance.material } else { of_part(i) };
+        let material = materials.get(i).copied().flatten().unwrap_or(instance.material);
         entries.push(match &scene.materials[material].emission {
             Some(emission) => triangle(mesh, i, map, emission, textures),
             None => Entry {
@@ -203,3 +199,7 @@ fn punctual(light: &scene::Light) -> Entry {
         },
     }
 }
+
+#[cfg(test)]
+#[path = "lights_tests.rs"]
+mod tests;
