@@ -156,12 +156,3 @@ pub fn as_floats(word: Word) -> [f32; 4] {
 pub fn as_doubles(word: Word) -> [f64; 4] {
     word.map(|bits| f64::from(f32::from_bits(bits)))
 }
-
-/// Distance of two floats in units in the last place; 0 and −0 are the same.
-pub fn ulps(a: f32, b: f32) -> u32 {
-    let order = |x: f32| {
-        let bits = x.to_bits() as i32;
-        i64::from(if bits < 0 { i32::MIN.wrapping_sub(bits) } else { bits })
-    };
-    u32::try_from((order(a) - order(b)).abs()).unwrap_or(u32::MAX)
-}

@@ -12,6 +12,7 @@ mod common;
 mod camera;
 mod geometry;
 mod light;
+mod offset;
 mod paths;
 mod planes;
 mod texture;
