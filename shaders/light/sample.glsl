@@ -24,6 +24,12 @@ Light light_fetch(uint i)
                         fetch_lights(w + 4u), fetch_lights(w + 5u), fetch_lights(w + 6u));
 }
 
+// Unit normal of a flat light by the turn from edge_u to edge_v, however long they are.
+vec3 light_plane_normal(Light light)
+{
+    return normalize(cross(normalize_or(light.edge_u, vec3(0.0)), normalize_or(light.edge_v, vec3(0.0))));
+}
+
 // A point on a surface light, chosen with the solid-angle density `pdf`.
 LightSample light_surface_point(Light light, vec3 from, vec3 point, vec3 normal, float pdf, vec2 uv)
 {
