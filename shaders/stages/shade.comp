@@ -115,7 +115,7 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     if (!front && surface.material == NONE) return false;
     Material material = material_fetch(surface.material);
 #ifdef HAS_MEDIUM
-    // A camera inside glass is known by the boundary that is met from behind.
+    // Glass around the glass that a path has left is known by its boundary, met from behind.
     bool from_inside = !front && material.kind == MATERIAL_DIELECTRIC && material.mode == 0u;
     if (path.medium == NONE && from_inside) path.medium = surface.material;
     path.throughput *= medium_transmittance(path.medium, distance(ray.origin, surface.position));
