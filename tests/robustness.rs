@@ -79,11 +79,9 @@ fn coordinates_of_all_sizes() {
         mean(&render(&s))
     };
     let expected = with(1.0, Vec3::ZERO);
-    for scale in [1e3_f32, 1e5, 30.0] {
+    for scale in [1e3_f32, 1e5, 30.0, 0.05, 1e-4] {
         expect_same(with(scale, Vec3::ZERO), expected, 1e-3);
     }
-    // Rays leave a surface by 2⁻¹⁶ at least: a scene of 0.05 loses a thousandth of its size
-    expect_same(with(0.05, Vec3::ZERO), expected, 5e-3);
     expect_same(with(1.0, Vec3::new(40.0, -30.0, 20.0)), expected, 2e-3);
 }
 
@@ -107,8 +105,8 @@ fn huge_and_tiny_numbers_are_finite() {
     // Beyond the range of floats: an error, not a picture
     let mut s = scene(8, 8, 1);
     let m = s.diffuse(0.5);
-    s.sphere(Vec3::X * 3e38, 3e38, m);
-    s.sphere(Vec3::X * -3e38, 3e38, m);
+    s.sphere(Vec3::X * 3e38, 1.0, m);
+    s.sphere(Vec3::X * -3e38, 1.0, m);
     let error = dapple::prepare::prepare(&s).unwrap_err();
     assert_eq!(error.to_string(), "the scene is too large for 32-bit floats; scale it down");
 }

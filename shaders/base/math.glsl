@@ -58,9 +58,11 @@ Basis basis_around(vec3 z)
 // A basis around z whose x is as near to `along` as can be.
 Basis basis_along(vec3 z, vec3 along)
 {
+    // By the direction of `along`: the square of its length may be beyond a float
+    along /= max(max_component(abs(along)), 1e-37);
     vec3 x = along - z * dot(z, along);
     float l = dot(x, x);
-    if (l < 1e-20) return basis_around(z);
+    if (l < 1e-12) return basis_around(z);
     x *= inversesqrt(l);
     return Basis(x, cross(z, x), z);
 }

@@ -1,5 +1,6 @@
 // Maps between the world and the object space of an instance.
 #include "shared/bindings.glsl"
+#include "base/math.glsl"
 
 Instance instance_fetch(uint i)
 {
@@ -23,6 +24,14 @@ vec3 object_point(Instance i, vec3 p) { return affine_point(i.object_row0, i.obj
 vec3 object_vector(Instance i, vec3 v) { return affine_vector(i.object_row0, i.object_row1, i.object_row2, v); }
 vec3 world_point(Instance i, vec3 p) { return affine_point(i.world_row0, i.world_row1, i.world_row2, p); }
 vec3 world_vector(Instance i, vec3 v) { return affine_vector(i.world_row0, i.world_row1, i.world_row2, v); }
+
+// A bound of all numbers that are added to map a point without a coordinate above `reach` to the world.
+float world_reach(Instance i, float reach)
+{
+    vec3 far = abs(vec3(i.world_row0.w, i.world_row1.w, i.world_row2.w));
+    vec3 sums = affine_vector(abs(i.world_row0), abs(i.world_row1), abs(i.world_row2), vec3(reach));
+    return max_component(far + sums);
+}
 
 // Normals go by the inverse transpose; not of unit length.
 vec3 world_normal(Instance i, vec3 n) { return i.object_row0.xyz * n.x + i.object_row1.xyz * n.y + i.object_row2.xyz * n.z; }

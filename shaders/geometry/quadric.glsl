@@ -2,20 +2,22 @@
 #include "base/math.glsl"
 
 // Nearest 0 < t < t_max, by the stable form of the quadratic (pbrt-v4, section 6.8.2). A root within rounding of a ray
-// that starts on the surface is told by the origin: `offset_ray_origin` has put it on its side.
+// that starts on the surface is told by the origin: `offset_ray_origin` has put it on its side. The direction is as long as
+// the sphere is small, so the quadratic is solved along its unit vector: a float may not hold the square of t.
 bool sphere_hit(vec3 origin, vec3 direction, float t_max, out float t)
 {
-    float a = dot(direction, direction);
-    float b = dot(origin, direction) / a;
-    vec3 closest = origin - b * direction;
-    float discriminant = (1.0 - dot(closest, closest)) / a;
+    float size = length(direction);
+    vec3 unit = direction / size;
+    float b = dot(origin, unit);
+    vec3 closest = origin - b * unit;
+    float discriminant = 1.0 - dot(closest, closest);
     float root = safe_sqrt(discriminant);
-    float c = (dot(origin, origin) - 1.0) / a;
+    float c = dot(origin, origin) - 1.0;
     float q = b < 0.0 ? -b + root : -b - root;
     float other = q != 0.0 ? c / q : 0.0;
     float near = min(q, other);
     float far = max(q, other);
-    t = near > 0.0 ? near : far;
+    t = (near > 0.0 ? near : far) / size;
     return discriminant >= 0.0 && t > 0.0 && t < t_max;
 }
 

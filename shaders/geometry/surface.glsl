@@ -6,6 +6,7 @@
 
 struct Surface {
     vec3 position;        // world space
+    float reach;          // largest of the coordinates that position was computed from
     vec3 object_position; // object space of its instance
     vec3 geometric;       // unit normal of the geometry, outward
     vec3 normal;          // unit shading normal, on the side of `geometric`
@@ -37,6 +38,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec3 ac = triangle.c - triangle.a;
     vec3 p = triangle.a + bary.x * ab + bary.y * ac;
     vec3 geometric = cross(ab, ac);
+    s.reach = max_component(max(abs(triangle.a), max(abs(triangle.b), abs(triangle.c))));
 
     // uv (0,0), (1,0), (1,1) where the mesh has none; two corners changed places where it was mirrored into the world
     bool turned = !to_world && instance.handedness < 0.0;
@@ -65,6 +67,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     if (to_world) {
         s.object_position = p;
         s.position = world_point(instance, p);
+        s.reach = world_reach(instance, s.reach);
         s.dpdu = world_vector(instance, s.dpdu);
         geometric = world_normal(instance, geometric);
         normal = world_normal(instance, normal);
@@ -90,6 +93,7 @@ Surface quadric_surface(Instance instance, float t, vec3 origin, vec3 direction)
     s.uv = sphere ? sphere_uv(p) : disk_uv(p.xy);
     s.object_position = p;
     s.position = world_point(instance, p);
+    s.reach = world_reach(instance, 1.0);
     s.dpdu = world_vector(instance, 2.0 * PI * vec3(-p.y, p.x, 0.0));
     s.geometric = normalize(world_normal(instance, sphere ? p : vec3(0.0, 0.0, 1.0)));
     s.normal = s.geometric;

@@ -69,5 +69,5 @@ LightSample environment_sample(float pick, vec2 u01)
     vec3 wi = sphere_sample(u01);
     float pdf = INV_FOUR_PI;
 #endif
-    return LightSample(wi, vec3(0.0), vec3(0.0), environment_radiance(wi), pdf, false, true);
+    return LightSample(wi, vec3(0.0), vec3(0.0), 0.0, environment_radiance(wi), pdf, false, true);
 }

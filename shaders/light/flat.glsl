@@ -5,7 +5,7 @@ LightSample disk_sample_light(Light light, vec3 from, vec2 u01)
 {
     vec2 at = disk_sample(u01);
     vec3 point = light.position + at.x * light.edge_u + at.y * light.edge_v;
-    vec3 normal = light.a * normalize(cross(light.edge_u, light.edge_v));
+    vec3 normal = light.a * light_plane_normal(light);
     float pdf = area_to_solid_angle(light.b, from, point, normal);
     return light_surface_point(light, from, point, normal, pdf, disk_uv(at));
 }
@@ -14,7 +14,7 @@ LightSample triangle_sample_light(Light light, vec3 from, vec2 u01)
 {
     vec2 at = triangle_sample(u01);
     vec3 point = light.position + at.x * light.edge_u + at.y * light.edge_v;
-    vec3 normal = normalize(cross(light.edge_u, light.edge_v));
+    vec3 normal = light_plane_normal(light);
     vec2 uv = light.uv0 + at.x * light.uv1 + at.y * light.uv2;
     return light_surface_point(light, from, point, normal, area_to_solid_angle(light.b, from, point, normal), uv);
 }

@@ -3,7 +3,7 @@
 #include "light/sample.glsl"
 
 struct SphericalRectangle {
-    vec3 x; vec3 y; vec3 z;           // frame of the rectangle, seen from `from`
+    vec3 x; vec3 y; vec3 z;           // frame of the rectangle, seen from `from`; lengths are in units of its edges' sum
     float x0; float x1; float y0; float y1; float z0;
     float b0; float b1; float k;
     float solid_angle;                // 0 = not to be used
@@ -19,7 +19,10 @@ SphericalRectangle spherical_rectangle(Light light, vec3 from)
     r.x = light.edge_u / lx;
     r.y = light.edge_v / ly;
     r.z = cross(r.x, r.y);
-    vec3 d = light.position - from;
+    float unit = lx + ly;
+    lx /= unit;
+    ly /= unit;
+    vec3 d = (light.position - from) / unit;
     r.z0 = dot(d, r.z);
     if (r.z0 > 0.0) {
         r.z = -r.z;
@@ -40,7 +43,7 @@ SphericalRectangle spherical_rectangle(Light light, vec3 from)
     r.b1 = nz.z;
     r.k = 2.0 * PI - g2 - g3;
     float solid_angle = g0 + g1 - r.k;
-    bool rectangle = abs(dot(r.x, r.y)) < 1e-4 && abs(r.z0) > 1e-6 * (lx + ly);
+    bool rectangle = abs(dot(r.x, r.y)) < 1e-4 && abs(r.z0) > 1e-6;
     r.solid_angle = rectangle && solid_angle > SPHERICAL_RECTANGLE_LEAST && solid_angle < 6.22 ? solid_angle : 0.0;
     return r;
 }
@@ -68,7 +71,7 @@ LightSample quad_sample_light(Light light, vec3 from, vec2 u01)
     bool spherical = r.solid_angle > 0.0;
     vec2 at = spherical ? spherical_rectangle_sample(r, u01) : u01;
     vec3 point = light.position + at.x * light.edge_u + at.y * light.edge_v;
-    vec3 normal = light.a * normalize(cross(light.edge_u, light.edge_v));
+    vec3 normal = light.a * light_plane_normal(light);
     float pdf = spherical ? 1.0 / r.solid_angle : area_to_solid_angle(light.b, from, point, normal);
     return light_surface_point(light, from, point, normal, pdf, at);
 }

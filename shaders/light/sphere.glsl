@@ -8,37 +8,43 @@ float sphere_cone(float sin2_max)
     return sin2_max < 0.00068523 ? 0.5 * sin2_max : 1.0 - safe_sqrt(1.0 - sin2_max);
 }
 
-// The cofactors of the map from the unit sphere to the light: inverse · determinant, and the transpose of that.
-struct SphereMap { vec3 vw; vec3 wu; vec3 uv; float determinant; };
+// The cofactors of the map from the unit sphere to the light: inverse · determinant, and the transpose of that. They are
+// those of its axes in units of `size`, whose cube may be beyond a float.
+struct SphereMap { vec3 vw; vec3 wu; vec3 uv; float determinant; float size; };
 
 SphereMap sphere_map(Light light)
 {
-    vec3 u = light.edge_u;
-    vec3 v = light.edge_v;
     vec3 w = vec3(light.uv0, light.uv1.x);
+    float size = max_component(max(abs(light.edge_u), max(abs(light.edge_v), abs(w))));
+    vec3 u = light.edge_u / size;
+    vec3 v = light.edge_v / size;
+    w /= size;
     vec3 vw = cross(v, w);
-    return SphereMap(vw, cross(w, u), cross(u, v), dot(u, vw));
+    return SphereMap(vw, cross(w, u), cross(u, v), dot(u, vw), size);
 }
 
 // The point of the unit sphere that `offset` from the centre comes from.
 vec3 sphere_object_point(SphereMap map, vec3 offset)
 {
+    offset /= map.size;
     return vec3(dot(map.vw, offset), dot(map.wu, offset), dot(map.uv, offset)) / map.determinant;
 }
 
-// Normal of the light at the image of `n`, as long as the area grows there.
-vec3 sphere_scaled_normal(SphereMap map, vec3 n)
+// Normal of the light at the image of `n`; `growth` is by how much the area grows there.
+vec3 sphere_normal(SphereMap map, vec3 n, out float growth)
 {
-    return (map.vw * n.x + map.wu * n.y + map.uv * n.z) * (map.determinant < 0.0 ? -1.0 : 1.0);
+    vec3 scaled = map.vw * n.x + map.wu * n.y + map.uv * n.z;
+    float size = length(scaled);
+    growth = size * sqr(map.size);
+    return scaled / (map.determinant < 0.0 ? -size : size);
 }
 
 LightSample ellipsoid_sample_light(Light light, SphereMap map, vec3 from, vec2 u01)
 {
     vec3 n = sphere_sample(u01);
     vec3 point = light.position + light.edge_u * n.x + light.edge_v * n.y + vec3(light.uv0, light.uv1.x) * n.z;
-    vec3 scaled = sphere_scaled_normal(map, n);
-    float growth = length(scaled);
-    vec3 normal = scaled / growth;
+    float growth;
+    vec3 normal = sphere_normal(map, n, growth);
     float pdf = area_to_solid_angle(4.0 * PI * growth, from, point, normal);
     return light_surface_point(light, from, point, normal, pdf, sphere_uv(n));
 }
@@ -73,6 +79,7 @@ float sphere_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)
     float d2 = dot(axis, axis);
     if (light.a > 0.0 && d2 > sqr(light.a) * 1.0001) return INV_TWO_PI / sphere_cone(sqr(light.a) / d2);
     SphereMap map = sphere_map(light);
-    float growth = length(sphere_scaled_normal(map, sphere_object_point(map, point - light.position)));
+    float growth;
+    sphere_normal(map, sphere_object_point(map, point - light.position), growth);
     return area_to_solid_angle(4.0 * PI * growth, from, point, normal);
 }

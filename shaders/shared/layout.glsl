@@ -128,6 +128,8 @@ struct Frame {
     uvec2 environment_size; // columns and rows of the importance table of the environment
     uint parked_stack; // entries of the stack of a parked ray
     uint point_count; // points of the evaluate and probe kernels
+    uvec3 spare; // room
+    uint camera_medium; // material of the glass around the camera, or NONE
 };
 
 struct Node {

@@ -35,7 +35,7 @@ void main()
     SampleKey key = sample_key(place.pixel, place.sample_index, frame.seed, frame.strata);
     CameraRay ray = thin_lens_sample(film_position(place, key) / vec2(frame.film_size), sample_2d(key, DIMENSION_LENS));
     ray_store(slot, WaveRay(ray.origin, ray.direction));
-    Path path = Path(vec3(1.0), 0.0, vec3(0.0), 0u, 0u, 0u, NONE, 1.0, key);
+    Path path = Path(vec3(1.0), 0.0, vec3(0.0), 0u, 0u, 0u, frame.camera_medium, 1.0, key);
     path_store(slot, path);
     path_store_medium(slot, path);
     // Tiles at the edge reach beyond the window: those slots are not queued, and the film leaves them out.

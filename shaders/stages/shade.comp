@@ -34,6 +34,12 @@ void shade_miss(inout Path path, vec3 direction)
 #endif
 }
 
+// Where a ray leaves a surface; `side` is its cosine with the geometric normal.
+vec3 ray_origin(Surface surface, float side)
+{
+    return offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric, surface.reach);
+}
+
 // Sends a shadow ray to a light and puts what it may bring into the shadow queue.
 void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, bool last, uint slot, uint next)
 {
@@ -55,8 +61,8 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
     // The path ends here when `last`: then the BSDF will not look for the light.
     float weight = light.delta || last ? 1.0 : power_heuristic(light.pdf, bsdf_pdf(bsdf, wo, wi));
     vec3 radiance = limited(path.throughput * f * light.radiance * (weight / light.pdf), path.depth + 1u);
-    vec3 origin = offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric);
-    vec3 target = offset_ray_origin(light.point, light.normal);
+    vec3 origin = ray_origin(surface, side);
+    vec3 target = offset_ray_origin(light.point, light.normal, light.reach);
     vec3 direction = light.infinite ? light.wi : target - origin;
     store_shadows(slot * SHADOW_WORDS, uvec4(floatBitsToUint(origin), floatBitsToUint(light.infinite ? FAR : 1.0)));
     store_shadows(slot * SHADOW_WORDS + 1u, uvec4(floatBitsToUint(direction), 0u));
@@ -92,7 +98,7 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
         path.throughput /= survival;
     }
 #endif
-    ray = WaveRay(offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric), wi);
+    ray = WaveRay(ray_origin(surface, side), wi);
     return true;
 }
 
@@ -108,7 +114,7 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     bool front = dot(ray.direction, surface.geometric) < 0.0;
     Material material = material_fetch(surface.material);
 #ifdef HAS_MEDIUM
-    // A camera inside glass is known by the boundary that is met from behind.
+    // Glass around the glass that a path has left is known by its boundary, met from behind.
     bool from_inside = !front && material.kind == MATERIAL_DIELECTRIC && material.mode == DIELECTRIC_SOLID;
     if (path.medium == NONE && from_inside) path.medium = surface.material;
     path.throughput *= medium_transmittance(path.medium, distance(ray.origin, surface.position));

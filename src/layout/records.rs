@@ -168,6 +168,10 @@ records! {
         parked_stack: u32,
         /// points of the evaluate and probe kernels
         point_count: u32,
+        /// room
+        spare: [u32; 3],
+        /// material of the glass around the camera, or NONE
+        camera_medium: u32,
     }
 
     /// Up to four children of a BVH node, with their boxes in bytes: corner = origin + byte · 2^(exponent − 127), rounded

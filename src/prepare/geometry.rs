@@ -11,12 +11,17 @@ use crate::layout::{
     Face, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
     LEAF_INSTANCE, NONE, Triangle, Vertex,
 };
-use crate::scene::{Mesh, Scene, Shape, ShapeKind};
+use crate::scene::{Handle, Material, Mesh, Scene, Shape, ShapeKind};
 use crate::{Error, Result};
-use glam::{Affine3A, Mat3A, Vec2, Vec3};
+use glam::{Affine3A, DAffine3, Mat3A, Vec2, Vec3};
 
 /// Most triangles a leaf holds.
 const TRIANGLES_A_LEAF: u32 = 4;
+
+/// Largest and smallest axes of spheres, disks and meshes with a tree of their own: the squares of both, and of what
+/// divides by them, are floats.
+const LARGEST: f64 = 5e18;
+const SMALLEST: f64 = 2e-19;
 
 /// Where a thing that may shine went: for the table of lights.
 pub(super) struct Placed {
@@ -61,6 +66,9 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
             ShapeKind::Quad { .. } => INSTANCE_SOUP,
         };
         let instance = out.push_instance(kind, world_from_object, shape.material.index() as u32);
+        if kind != INSTANCE_SOUP {
+            check_size(&shape.name, &world_from_object)?;
+        }
         if let ShapeKind::Quad { .. } = shape.kind {
             let face = push_triangles(&quad_mesh(), &world_from_object, Some(instance), out, &mut soup);
             out.instances[instance as usize].first_face = face;
@@ -73,6 +81,9 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         let once = uses[instance.mesh.index()] == 1;
         let kind = if once { INSTANCE_SOUP } else { INSTANCE_MESH };
         let index = out.push_instance(kind, map, instance.material.index() as u32);
+        if !once {
+            check_size(&instance.name, &map)?;
+        }
         out.instances[index as usize].light_stride = 1;
         out.instances[index as usize].default_uv = u32::from(mesh.uvs.is_empty());
         if once {
@@ -200,12 +211,14 @@ fn check_stack(entries: u32) -> Result<()> {
 
 impl Prepared {
     fn push_instance(&mut self, kind: u32, world_from_object: Affine3A, material: u32) -> u32 {
-        let rows = |m: &Affine3A| {
+        let rows = |m: &DAffine3| {
             let (linear, t) = (m.matrix3.transpose(), m.translation);
             [linear.x_axis.extend(t.x), linear.y_axis.extend(t.y), linear.z_axis.extend(t.z)]
-                .map(|r| r.to_array())
+                .map(|r| r.as_vec4().to_array())
         };
-        let (world, object) = (rows(&world_from_object), rows(&world_from_object.inverse()));
+        // In f64: an inverse has products of three lengths on its way
+        let exact = world_from_object.as_daffine3();
+        let (world, object) = (rows(&exact), rows(&exact.inverse()));
         self.instances.push(Instance {
             kind,
             root: NONE,
@@ -217,7 +230,7 @@ impl Prepared {
             world_row0: world[0],
             world_row1: world[1],
             world_row2: world[2],
-            handedness: if world_from_object.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 },
+            handedness: if mirrors(&world_from_object) { -1.0 } else { 1.0 },
             light_stride: 0,
             first_face: NONE,
             default_uv: 0,
@@ -267,7 +280,7 @@ fn push_triangles(
     out: &mut Prepared,
     triangles: &mut Vec<Triangle>,
 ) -> u32 {
-    let mirrored = map.matrix3.determinant() < 0.0;
+    let mirrored = mirrors(map);
     let normal_map = normal_map(map);
     let has_vertices = !mesh.normals.is_empty() || !mesh.uvs.is_empty();
     let (first_face, first_vertex) = (out.faces.len() as u32, out.vertices.len() as u32);
@@ -290,7 +303,7 @@ fn push_triangles(
             a: position(a),
             instance: instance.unwrap_or(NONE),
             b: position(b),
-            material: materials.get(i).copied().unwrap_or(NONE),
+            material: materials.get(i).copied().flatten().map_or(NONE, |material| material.index() as u32),
             c: position(c),
             primitive: i as u32,
         });
@@ -301,25 +314,46 @@ fn push_triangles(
 /// The map of normals, up to a factor that is the same for all: normals are interpolated before they get unit length, so
 /// that a mesh put into world space looks like one that is mapped by the kernels.
 fn normal_map(map: &Affine3A) -> Mat3A {
-    let m: Mat3A = map.matrix3.inverse().transpose();
+    let m = map.as_daffine3().matrix3.inverse().transpose();
     let longest = m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
-    if longest > 0.0 { m * (1.0 / longest) } else { m }
+    let m = if longest > 0.0 { m * (1.0 / longest) } else { m };
+    Mat3A::from_cols(m.x_axis.as_vec3a(), m.y_axis.as_vec3a(), m.z_axis.as_vec3a())
 }
 
-/// Material of each triangle; empty when no part has one of its own.
-fn part_materials(mesh: &Mesh) -> Vec<u32> {
+/// Material of each triangle, none for that of the instance; empty when no part has one of its own.
+pub(super) fn part_materials(mesh: &Mesh) -> Vec<Option<Handle<Material>>> {
     if mesh.parts.iter().all(|part| part.material.is_none()) {
         return Vec::new();
     }
-    let mut materials = vec![NONE; mesh.triangles.len()];
+    let mut materials = vec![None; mesh.triangles.len()];
     for part in &mesh.parts {
-        if let (Some(material), Some(slots)) =
-            (part.material, materials.get_mut(part.triangles.start as usize..part.triangles.end as usize))
-        {
-            slots.fill(material.index() as u32);
+        if let Some(slots) = materials.get_mut(part.triangles.start as usize..part.triangles.end as usize) {
+            slots.fill(part.material);
         }
     }
     materials
+}
+
+/// Whether a map mirrors.
+pub(super) fn mirrors(map: &Affine3A) -> bool {
+    map.as_daffine3().matrix3.determinant() < 0.0
+}
+
+/// Refuses what is so large or small that kernels, which square lengths in the object's space, leave the range of floats.
+fn check_size(name: &str, map: &Affine3A) -> Result<()> {
+    let world = map.as_daffine3().matrix3;
+    let longest = |m: glam::DMat3| m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
+    let (largest, smallest) = (longest(world), 1.0 / longest(world.inverse()));
+    let refuse = |size: f64, what: &str, next: &str| {
+        Err(Error::scene(format!("{name} has a size of {size:.1e}, too {what} for 32-bit floats")).help(next))
+    };
+    if largest > LARGEST {
+        return refuse(largest, "large", "scale the scene down");
+    }
+    if smallest < SMALLEST || smallest.is_nan() {
+        return refuse(smallest, "small", "scale the scene up, or leave it out");
+    }
+    Ok(())
 }
 
 /// The unit square as two triangles: uv = position.
@@ -345,11 +379,16 @@ pub(super) fn shape_frame(shape: &Shape) -> Affine3A {
         ShapeKind::Sphere { center, radius, pole, meridian } => around(pole, meridian, radius, center),
         ShapeKind::Disk { center, normal, radius, meridian } => around(normal, meridian, radius, center),
         ShapeKind::Quad { origin, edge_u, edge_v } => Affine3A {
-            matrix3: Mat3A::from_cols(edge_u.into(), edge_v.into(), edge_u.cross(edge_v).normalize().into()),
+            matrix3: Mat3A::from_cols(edge_u.into(), edge_v.into(), quad_normal(edge_u, edge_v).into()),
             translation: origin.into(),
         },
     };
     shape.world_from_object * object
+}
+
+/// Unit normal of a quad, however long its edges are.
+fn quad_normal(edge_u: Vec3, edge_v: Vec3) -> Vec3 {
+    edge_u.as_dvec3().cross(edge_v.as_dvec3()).normalize().as_vec3()
 }
 
 fn world_from_object(instance: &Instance) -> Affine3A {

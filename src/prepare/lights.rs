@@ -1,6 +1,6 @@
 //! The table of lights, chosen by power.
 
-use super::geometry::{Placed, Source};
+use super::geometry::{Placed, Source, mirrors, part_materials};
 use super::textures::References;
 use super::{Prepared, alias};
 use crate::layout::{
@@ -96,7 +96,7 @@ fn push_shape(scene: &Scene, index: usize, map: &Affine3A, textures: &References
     let (x, y, z) = (Vec3::from(m.x_axis), Vec3::from(m.y_axis), Vec3::from(m.z_axis));
     (light.edge_u, light.edge_v) = (x.to_array(), y.to_array());
     // Front of a mirrored shape: its normal is that of the object, not of the cross product in the world.
-    light.a = m.determinant().signum();
+    light.a = if mirrors(map) { -1.0 } else { 1.0 };
     if let ShapeKind::Sphere { .. } = shape.kind {
         light.a = if is_sphere(x, y, z) { x.length() } else { 0.0 };
         (light.uv0, light.uv1) = ([z.x, z.y], [z.z, 0.0]);
@@ -125,17 +125,13 @@ fn is_sphere(x: Vec3, y: Vec3, z: Vec3) -> bool {
 fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References, entries: &mut Vec<Entry>) {
     let instance = &scene.instances[index];
     let mesh = &scene.meshes[instance.mesh];
-    let of_part = |triangle: usize| {
-        let part = mesh.parts.iter().find(|part| part.triangles.contains(&(triangle as u32)));
-        part.and_then(|part| part.material).unwrap_or(instance.material)
-    };
-    let uniform = mesh.parts.iter().all(|part| part.material.is_none());
     let shines = |material| scene.materials[material].emission.is_some();
     if !shines(instance.material) && !mesh.parts.iter().filter_map(|part| part.material).any(shines) {
         return;
     }
+    let materials = part_materials(mesh);
     for i in 0..mesh.triangles.len() {
-        let material = if uniform { instance.material } else { of_part(i) };
+        let material = materials.get(i).copied().flatten().unwrap_or(instance.material);
         entries.push(match &scene.materials[material].emission {
             Some(emission) => triangle(mesh, i, map, emission, textures),
             None => Entry {
@@ -150,7 +146,7 @@ fn triangle(mesh: &Mesh, index: usize, map: &Affine3A, emission: &Emission, text
     let (mut light, exitance) = surface_light(emission, textures, LIGHT_TRIANGLE);
     let mut corners = mesh.triangles[index];
     let mut default = [Vec2::ZERO, Vec2::X, Vec2::ONE];
-    if map.matrix3.determinant() < 0.0 {
+    if mirrors(map) {
         corners.swap(1, 2);
         default.swap(1, 2);
     }
@@ -158,10 +154,11 @@ fn triangle(mesh: &Mesh, index: usize, map: &Affine3A, emission: &Emission, text
     let uv = |k: usize| mesh.uvs.get(corners[k] as usize).copied().unwrap_or(default[k]);
     light.position = a.to_array();
     (light.edge_u, light.edge_v) = ((b - a).to_array(), (c - a).to_array());
-    light.b = 0.5 * (b - a).cross(c - a).length();
+    let area = 0.5 * (b - a).as_dvec3().cross((c - a).as_dvec3()).length();
+    light.b = area as f32;
     light.uv0 = uv(0).to_array();
     (light.uv1, light.uv2) = ((uv(1) - uv(0)).to_array(), (uv(2) - uv(0)).to_array());
-    Entry { power: Some(exitance * f64::from(light.b)), light }
+    Entry { power: Some(exitance * area), light }
 }
 
 fn punctual(light: &scene::Light) -> Entry {
@@ -203,3 +200,7 @@ fn punctual(light: &scene::Light) -> Entry {
         },
     }
 }
+
+#[cfg(test)]
+#[path = "lights_tests.rs"]
+mod tests;

@@ -10,6 +10,7 @@ mod environment;
 mod geometry;
 mod lights;
 mod materials;
+mod medium;
 mod textures;
 mod variant;
 mod wide;
@@ -63,6 +64,8 @@ pub struct Prepared {
     pub stack_entries: u32,
     /// GLSL of the texture trees: the virtual file `generated/textures.glsl`.
     pub texture_glsl: String,
+    /// Material of the glass around the camera, or NONE.
+    pub camera_medium: u32,
     /// What the scene uses: decides the variants of the kernels.
     pub features: Features,
     /// log₂ of the unit of the sums of radiance.
@@ -147,6 +150,7 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
     let mut out = Prepared {
         root: crate::layout::NONE,
         environment_texture: crate::layout::NONE,
+        camera_medium: crate::layout::NONE,
         ..Prepared::default()
     };
     let textures = textures::prepare(scene, &mut out)?;
@@ -154,6 +158,9 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
     let placed = geometry::prepare(scene, &mut out)?;
     lights::prepare(scene, &textures, placed, &mut out);
     environment::prepare(scene, &textures, &mut out);
+    if out.features.medium {
+        out.camera_medium = medium::around_camera(scene);
+    }
     out.features.lens = scene.camera.lens.is_some();
     choose_units(scene, &textures, &mut out);
     Ok(out)

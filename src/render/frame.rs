@@ -38,6 +38,7 @@ pub(super) fn of_scene(scene: &Scene, prepared: &Prepared, threads: u32) -> Fram
         step_limit: step_limit(prepared),
         light_count: prepared.lights.len() as u32,
         environment_chance: prepared.environment_chance,
+        camera_medium: prepared.camera_medium,
         firefly_clamp: render.firefly_clamp.unwrap_or(0.0),
         radiance_scale: (-prepared.radiance_exponent as f32).exp2(),
         depth_scale: (-prepared.depth_exponent as f32).exp2(),

@@ -166,12 +166,3 @@ pub fn as_doubles(word: Word) -> [f64; 4] {
 pub fn three(v: [f64; 4]) -> [f64; 3] {
     [v[0], v[1], v[2]]
 }
-
-/// Distance of two floats in units in the last place; 0 and −0 are the same.
-pub fn ulps(a: f32, b: f32) -> u32 {
-    let order = |x: f32| {
-        let bits = x.to_bits() as i32;
-        i64::from(if bits < 0 { i32::MIN.wrapping_sub(bits) } else { bits })
-    };
-    u32::try_from((order(a) - order(b)).abs()).unwrap_or(u32::MAX)
-}

@@ -138,6 +138,64 @@ fn a_camera_inside_glass_sees_its_absorption() {
     expect_mean(mean(&render(&s)), expected, 1e-3);
 }
 
+/// What a camera inside glass sees of a white ball at a distance of 1 that is in there with it.
+fn ball_beside_the_camera(build: impl FnOnce(&mut Scene, Handle<Material>)) -> Measured {
+    let mut s = scene(4, 4, 64);
+    s.render.max_depth = 1;
+    s.camera.fov = 0.1;
+    let m = s.glass(1.5, 0.0, Vec3::new(0.2, 0.5, 1.0), false);
+    build(&mut s, m);
+    let white = s.unlit(grey(1.0));
+    s.sphere(Vec3::NEG_Z * 1.5, 0.5, white);
+    mean(&render(&s))
+}
+
+#[test]
+fn glass_around_the_camera_absorbs_on_the_way_to_what_is_in_it() {
+    let through = [0.2_f64, 0.5, 1.0].map(|a| (-a).exp());
+    let clear = [1.0; 3];
+    let cube = |s: &mut Scene, m, half: f32, inward| {
+        let mesh = s.meshes.add("cube", box_mesh(Vec3::splat(-half), Vec3::splat(half), inward));
+        s.place(mesh, m, Affine3A::IDENTITY);
+    };
+    let sphere = ball_beside_the_camera(|s, m| _ = s.sphere(Vec3::ZERO, 3.0, m));
+    expect_mean(sphere, through, 0.0);
+    expect_mean(ball_beside_the_camera(|s, m| cube(s, m, 3.0, false)), through, 0.0);
+    // A mirrored map keeps the inside of a mesh inside
+    let mirrored = ball_beside_the_camera(|s, m| {
+        let mesh = s.meshes.add("cube", box_mesh(Vec3::splat(-3.0), Vec3::splat(3.0), false));
+        s.place(mesh, m, Affine3A::from_scale(Vec3::new(1.0, -1.0, 1.0)));
+    });
+    expect_mean(mirrored, through, 0.0);
+    // Six quads
+    let quads = ball_beside_the_camera(|s, m| {
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z] {
+            let (u, v) = axis.any_orthonormal_pair();
+            let (u, v) = if u.cross(v).dot(axis) > 0.0 { (u, v) } else { (v, u) };
+            s.quad(3.0 * (axis - u - v), 6.0 * u, 6.0 * v, m);
+        }
+    });
+    expect_mean(quads, through, 0.0);
+    // A bubble in glass, a ball of glass beside the camera, and a sheet that closes nothing
+    let bubble = ball_beside_the_camera(|s, m| {
+        cube(s, m, 4.0, false);
+        cube(s, m, 3.0, true);
+    });
+    expect_mean(bubble, clear, 0.0);
+    expect_mean(ball_beside_the_camera(|s, m| _ = s.sphere(Vec3::Y * 3.0, 2.0, m)), clear, 0.0);
+    let sheet = ball_beside_the_camera(|s, m| {
+        s.quad(Vec3::new(-9.0, 0.1, 9.0), Vec3::X * 18.0, Vec3::NEG_Z * 18.0, m);
+    });
+    expect_mean(sheet, clear, 0.0);
+    // Of two, one in the other, the inner
+    let inner = ball_beside_the_camera(|s, m| {
+        s.sphere(Vec3::ZERO, 9.0, m);
+        let other = s.glass(1.5, 0.0, Vec3::splat(2.0), false);
+        s.sphere(Vec3::ZERO, 3.0, other);
+    });
+    expect_grey(inner, (-2.0_f64).exp(), 0.0);
+}
+
 #[test]
 fn a_ball_inside_absorbing_glass() {
     // Camera outside, a white unlit ball inside a ball of glass, on the axis: through 1 unit of glass

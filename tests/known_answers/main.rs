@@ -17,6 +17,7 @@ mod furnace;
 mod geometry;
 mod glass;
 mod light;
+mod offset;
 mod paths;
 mod planes;
 mod texture;

@@ -1,6 +1,6 @@
 //! `shaders/base`: fixed point, ray offset, bases.
 
-use crate::common::probe::{Probe, Word, as_doubles, as_floats, floats, ulps};
+use crate::common::probe::{Probe, Word, as_doubles, as_floats, floats};
 use crate::common::random::Random;
 use crate::common::twins::{fixed, math};
 
@@ -85,32 +85,40 @@ fn wide_sums_carry() {
 fn rays_start_on_the_side_of_the_normal() {
     let glsl = "#include \"base/offset.glsl\"
         void probe(uint i) {
-            vec3 p = uintBitsToFloat(fetch_points(2u * i).xyz);
+            vec4 p = uintBitsToFloat(fetch_points(2u * i));
             vec3 n = uintBitsToFloat(fetch_points(2u * i + 1u).xyz);
-            store_values(i, uvec4(floatBitsToUint(offset_ray_origin(p, n)), 0u));
+            store_values(i, uvec4(floatBitsToUint(offset_ray_origin(p.xyz, n, p.w)), 0u));
         }";
     let mut random = Random(9);
-    let mut cases = vec![([0.0; 3], [0.0, 0.0, 1.0]), ([1.0, -1.0, 0.0], [0.0, 1.0, 0.0])];
+    let mut cases = vec![([0.0; 3], [0.0, 0.0, 1.0], 1.0), ([1.0, -1.0, 0.0], [0.0, 1.0, 0.0], 1.0)];
     for _ in 0..20_000 {
-        let size = random.between(-20.0, 20.0).exp2();
-        cases.push((random.cube(size), random.direction()));
+        let size = random.between(-60.0, 60.0).exp2();
+        // No coordinate of a point is larger than those of its surface
+        let (p, more) = (random.cube(size), random.between(0.0, 6.0).exp2());
+        cases.push((p, random.direction(), more * p.iter().fold(0.0_f32, |most, c| most.max(c.abs()))));
     }
     let inputs: Vec<Word> = cases
         .iter()
-        .flat_map(|(p, n)| [floats(p[0], p[1], p[2], 0.0), floats(n[0], n[1], n[2], 0.0)])
+        .flat_map(|(p, n, reach)| [floats(p[0], p[1], p[2], *reach), floats(n[0], n[1], n[2], 0.0)])
         .collect();
     let values = Probe::new().both(glsl, &inputs, cases.len(), cases.len());
-    for ((p, n), value) in cases.iter().zip(&values) {
+    for ((p, n, reach), value) in cases.iter().zip(&values) {
         let moved = as_floats(*value);
         let mut along = 0.0;
         for c in 0..3 {
-            // The integer branch is exact; near 0 a compiler may fuse the product into the sum: 1 ulp
-            let tolerance = u32::from(p[c].abs() < 1.0 / 32.0);
-            let expected = math::offset(p[c], n[c]);
-            assert!(ulps(moved[c], expected) <= tolerance, "{p:?} {n:?}: {} not {expected}", moved[c]);
+            let expected = math::offset(p[c], n[c], *reach);
+            // The product is rounded, and the sum
+            let tolerance = f64::from(p[c].abs()) * 2f64.powi(-23) + f64::from(*reach) * 2f64.powi(-43);
+            assert!(
+                (f64::from(moved[c]) - expected).abs() <= tolerance,
+                "{p:?} {n:?}: {} not {expected}",
+                moved[c]
+            );
             along += f64::from(n[c]) * (f64::from(moved[c]) - f64::from(p[c]));
         }
-        assert!(along > 0.0, "{p:?} {n:?} moved by {along}");
+        // All but the rounding of the sum: at most half a unit in the last place of each coordinate
+        let expected = f64::from(*reach) * 2f64.powi(-20);
+        assert!(along > 0.8 * expected, "{p:?} {n:?} {reach} moved by {along}");
     }
 }
 

@@ -20,9 +20,12 @@ pub(super) fn transform(item: Item<'_>) -> Result<Affine3A> {
     let narrow = Affine3A { matrix3: Mat3A::from_cols(x, y, z), translation };
     let edges = whole.x_axis.length() * whole.y_axis.length() * whole.z_axis.length();
     let volume = whole.matrix3.determinant().abs();
+    let inverse = narrow.as_daffine3().inverse();
+    let holds =
+        [inverse.x_axis, inverse.y_axis, inverse.z_axis].iter().all(|column| column.as_vec3().is_finite());
     // Negated, so that NaN counts as singular.
-    let invertible = volume > MIN_VOLUME * edges && narrow.is_finite() && narrow.inverse().is_finite();
-    if !invertible || narrow.matrix3.determinant() == 0.0 {
+    let invertible = volume > MIN_VOLUME * edges && narrow.is_finite() && holds;
+    if !invertible {
         return Err(item.error(format!("{} cannot be inverted", item.name())).help("give every axis a size"));
     }
     Ok(narrow)

@@ -30,11 +30,7 @@ pub fn towards(origin: [f32; 3], target: [f32; 3]) -> [f32; 3] {
     [0, 1, 2].map(|i| target[i] - origin[i])
 }
 
-/// One coordinate of `offset_ray_origin` (Wächter and Binder, Ray Tracing Gems, chapter 6).
-pub fn offset(p: f32, n: f32) -> f32 {
-    if p.abs() < 1.0 / 32.0 {
-        return p + n / 65536.0;
-    }
-    let steps = (256.0 * n) as i32;
-    f32::from_bits((p.to_bits() as i32).wrapping_add(if p < 0.0 { -steps } else { steps }) as u32)
+/// One coordinate of `offset_ray_origin`.
+pub fn offset(p: f32, n: f32, reach: f32) -> f64 {
+    f64::from(p) + f64::from(n) * f64::from(reach) * 2f64.powi(-20)
 }
