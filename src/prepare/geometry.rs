@@ -31,6 +31,8 @@ pub(super) struct Placed {
     pub source: Source,
     /// Its map to world space.
     pub world_from_object: Affine3A,
+    /// Its bounds in the world.
+    pub bounds: Bounds,
 }
 
 /// Where an instance comes from in the scene.
@@ -60,10 +62,16 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         if kind != INSTANCE_SOUP {
             check_size(&shape.name, &world_from_object)?;
         }
-        if let ShapeKind::Quad { .. } = shape.kind {
-            push_triangles(&quad_mesh(), &world_from_object, Some(instance), out, &mut soup);
-        }
-        placed.push(Placed { instance, source: Source::Shape(i), world_from_object });
+        let bounds = match shape.kind {
+            ShapeKind::Sphere { .. } => ellipsoid_bounds(&world_from_object),
+            ShapeKind::Disk { .. } => disk_bounds(&world_from_object),
+            ShapeKind::Quad { .. } => {
+                let first = soup.len();
+                push_triangles(&quad_mesh(), &world_from_object, Some(instance), out, &mut soup);
+                bounds_of(&soup[first..])
+            }
+        };
+        placed.push(Placed { instance, source: Source::Shape(i), world_from_object, bounds });
     }
     let mut trees: Vec<Option<(u32, u32, Bounds)>> = vec![None; scene.meshes.len()];
     for (i, instance) in scene.instances.iter().enumerate() {
@@ -76,8 +84,10 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         }
         out.instances[index as usize].light_stride = 1;
         out.instances[index as usize].default_uv = u32::from(mesh.uvs.is_empty());
-        if once {
+        let bounds = if once {
+            let first = soup.len();
             push_triangles(mesh, &map, Some(index), out, &mut soup);
+            bounds_of(&soup[first..])
         } else {
             let tree = &mut trees[instance.mesh.index()];
             if tree.is_none() {
@@ -88,8 +98,9 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
                 *tree = Some((root, depth, bounds));
             }
             out.instances[index as usize].root = tree.map_or(NONE, |(root, ..)| root);
-        }
-        placed.push(Placed { instance: index, source: Source::Mesh(i), world_from_object: map });
+            tree.map_or(Bounds::default(), |(.., bounds)| transformed(&bounds, &map))
+        };
+        placed.push(Placed { instance: index, source: Source::Mesh(i), world_from_object: map, bounds });
     }
     build_top(scene, soup, &trees, out)?;
     out.put_triangles_after_nodes();
@@ -130,12 +141,10 @@ fn build_top(
         }
     }
     for (_, bounds) in &tops {
-        out.bounds.add(bounds.min);
-        out.bounds.add(bounds.max);
+        out.bounds.join(bounds);
     }
     if soup_root.is_some() {
-        out.bounds.add(soup_bounds.min);
-        out.bounds.add(soup_bounds.max);
+        out.bounds.join(&soup_bounds);
     }
     if !out.bounds.diagonal().is_finite() {
         return Err(Error::scene("the scene is too large for 32-bit floats").help("scale it down"));
