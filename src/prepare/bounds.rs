@@ -25,6 +25,17 @@ impl Bounds {
         self.max = self.max.max(p);
     }
 
+    /// Grows the box to hold another.
+    pub fn join(&mut self, other: &Self) {
+        self.min = self.min.min(other.min);
+        self.max = self.max.max(other.max);
+    }
+
+    /// Distance of a point from the box; 0 inside.
+    pub fn distance(&self, p: Vec3) -> f32 {
+        (self.min - p).max(p - self.max).max(Vec3::ZERO).length()
+    }
+
     /// Length of the diagonal; 0 when the box is empty.
     pub fn diagonal(&self) -> f32 {
         if self.min.x <= self.max.x { (self.max - self.min).length() } else { 0.0 }
@@ -41,8 +52,7 @@ pub(super) fn triangle_bounds(t: &Triangle) -> Bounds {
 
 pub(super) fn bounds_of(triangles: &[Triangle]) -> Bounds {
     triangles.iter().map(triangle_bounds).fold(Bounds::default(), |mut all, b| {
-        all.add(b.min);
-        all.add(b.max);
+        all.join(&b);
         all
     })
 }

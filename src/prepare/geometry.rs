@@ -6,14 +6,15 @@
 use super::Prepared;
 use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
+use super::triangles::{mirrors, push_triangles, quad_mesh};
 use super::wide::Leaves;
 use crate::layout::{
-    Face, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
-    LEAF_INSTANCE, NONE, Triangle, Vertex,
+    INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
+    LEAF_INSTANCE, NONE, Triangle,
 };
-use crate::scene::{Handle, Material, Mesh, Scene, Shape, ShapeKind};
+use crate::scene::{Mesh, Scene, Shape, ShapeKind};
 use crate::{Error, Result};
-use glam::{Affine3A, DAffine3, Mat3A, Vec2, Vec3};
+use glam::{Affine3A, DAffine3, Mat3A, Vec3};
 
 /// Most triangles a leaf holds.
 const TRIANGLES_A_LEAF: u32 = 4;
@@ -31,6 +32,8 @@ pub(super) struct Placed {
     pub source: Source,
     /// Its map to world space.
     pub world_from_object: Affine3A,
+    /// Its bounds in the world.
+    pub bounds: Bounds,
 }
 
 /// Where an instance comes from in the scene.
@@ -69,11 +72,17 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         if kind != INSTANCE_SOUP {
             check_size(&shape.name, &world_from_object)?;
         }
-        if let ShapeKind::Quad { .. } = shape.kind {
-            let face = push_triangles(&quad_mesh(), &world_from_object, Some(instance), out, &mut soup);
-            out.instances[instance as usize].first_face = face;
-        }
-        placed.push(Placed { instance, source: Source::Shape(i), world_from_object });
+        let bounds = match shape.kind {
+            ShapeKind::Sphere { .. } => ellipsoid_bounds(&world_from_object),
+            ShapeKind::Disk { .. } => disk_bounds(&world_from_object),
+            ShapeKind::Quad { .. } => {
+                let first = soup.len();
+                let face = push_triangles(&quad_mesh(), &world_from_object, Some(instance), out, &mut soup);
+                out.instances[instance as usize].first_face = face;
+                bounds_of(&soup[first..])
+            }
+        };
+        placed.push(Placed { instance, source: Source::Shape(i), world_from_object, bounds });
     }
     let mut trees: Vec<Option<MeshTree>> = vec![None; scene.meshes.len()];
     for (i, instance) in scene.instances.iter().enumerate() {
@@ -86,9 +95,11 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         }
         out.instances[index as usize].light_stride = 1;
         out.instances[index as usize].default_uv = u32::from(mesh.uvs.is_empty());
-        if once {
-            out.instances[index as usize].first_face =
-                push_triangles(mesh, &map, Some(index), out, &mut soup);
+        let bounds = if once {
+            let first = soup.len();
+            let face = push_triangles(mesh, &map, Some(index), out, &mut soup);
+            out.instances[index as usize].first_face = face;
+            bounds_of(&soup[first..])
         } else {
             let tree = match trees[instance.mesh.index()] {
                 Some(tree) => tree,
@@ -96,8 +107,9 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
             };
             out.instances[index as usize].root = tree.root;
             out.instances[index as usize].first_face = tree.first_face;
-        }
-        placed.push(Placed { instance: index, source: Source::Mesh(i), world_from_object: map });
+            transformed(&tree.bounds, &map)
+        };
+        placed.push(Placed { instance: index, source: Source::Mesh(i), world_from_object: map, bounds });
     }
     build_top(scene, soup, &trees, out)?;
     Ok(placed)
@@ -145,12 +157,10 @@ fn build_top(
         }
     }
     for (_, bounds) in &tops {
-        out.bounds.add(bounds.min);
-        out.bounds.add(bounds.max);
+        out.bounds.join(bounds);
     }
     if soup_root.is_some() {
-        out.bounds.add(soup_bounds.min);
-        out.bounds.add(soup_bounds.max);
+        out.bounds.join(&soup_bounds);
     }
     if !out.bounds.diagonal().is_finite() {
         return Err(Error::scene("the scene is too large for 32-bit floats").help("scale it down"));
@@ -270,75 +280,6 @@ impl Prepared {
     }
 }
 
-/// The triangles of a mesh as records, with their vertices. Gives the first of their faces, or NONE. `instance` is set for
-/// what is put into world space; a map that mirrors turns the triangles round, so that they stay counter-clockwise from
-/// outside.
-fn push_triangles(
-    mesh: &Mesh,
-    map: &Affine3A,
-    instance: Option<u32>,
-    out: &mut Prepared,
-    triangles: &mut Vec<Triangle>,
-) -> u32 {
-    let mirrored = mirrors(map);
-    let normal_map = normal_map(map);
-    let has_vertices = !mesh.normals.is_empty() || !mesh.uvs.is_empty();
-    let (first_face, first_vertex) = (out.faces.len() as u32, out.vertices.len() as u32);
-    if has_vertices {
-        out.vertices.extend((0..mesh.positions.len()).map(|i| {
-            let normal = mesh.normals.get(i).map_or(Vec3::ZERO, |n| normal_map * *n);
-            let uv = mesh.uvs.get(i).copied().unwrap_or(Vec2::ZERO);
-            Vertex { normal: normal.into(), u: uv.x, v: uv.y, spare: [0.0; 3] }
-        }));
-    }
-    let materials = part_materials(mesh);
-    triangles.reserve(mesh.triangles.len());
-    for (i, corners) in mesh.triangles.iter().enumerate() {
-        let [a, b, c] = if mirrored { [corners[0], corners[2], corners[1]] } else { *corners };
-        let position = |v: u32| map.transform_point3(mesh.positions[v as usize]).to_array();
-        if has_vertices {
-            out.faces.push(Face { vertices: [a, b, c].map(|v| first_vertex + v), spare: 0 });
-        }
-        triangles.push(Triangle {
-            a: position(a),
-            instance: instance.unwrap_or(NONE),
-            b: position(b),
-            material: materials.get(i).copied().flatten().map_or(NONE, |material| material.index() as u32),
-            c: position(c),
-            primitive: i as u32,
-        });
-    }
-    if has_vertices { first_face } else { NONE }
-}
-
-/// The map of normals, up to a factor that is the same for all: normals are interpolated before they get unit length, so
-/// that a mesh put into world space looks like one that is mapped by the kernels.
-fn normal_map(map: &Affine3A) -> Mat3A {
-    let m = map.as_daffine3().matrix3.inverse().transpose();
-    let longest = m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
-    let m = if longest > 0.0 { m * (1.0 / longest) } else { m };
-    Mat3A::from_cols(m.x_axis.as_vec3a(), m.y_axis.as_vec3a(), m.z_axis.as_vec3a())
-}
-
-/// Material of each triangle, none for that of the instance; empty when no part has one of its own.
-pub(super) fn part_materials(mesh: &Mesh) -> Vec<Option<Handle<Material>>> {
-    if mesh.parts.iter().all(|part| part.material.is_none()) {
-        return Vec::new();
-    }
-    let mut materials = vec![None; mesh.triangles.len()];
-    for part in &mesh.parts {
-        if let Some(slots) = materials.get_mut(part.triangles.start as usize..part.triangles.end as usize) {
-            slots.fill(part.material);
-        }
-    }
-    materials
-}
-
-/// Whether a map mirrors.
-pub(super) fn mirrors(map: &Affine3A) -> bool {
-    map.as_daffine3().matrix3.determinant() < 0.0
-}
-
 /// Refuses what is so large or small that kernels, which square lengths in the object's space, leave the range of floats.
 fn check_size(name: &str, map: &Affine3A) -> Result<()> {
     let world = map.as_daffine3().matrix3;
@@ -354,17 +295,6 @@ fn check_size(name: &str, map: &Affine3A) -> Result<()> {
         return refuse(smallest, "small", "scale the scene up, or leave it out");
     }
     Ok(())
-}
-
-/// The unit square as two triangles: uv = position.
-fn quad_mesh() -> Mesh {
-    let corners = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
-    Mesh {
-        positions: corners.iter().map(|c| c.extend(0.0)).collect(),
-        uvs: corners.to_vec(),
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        ..Mesh::default()
-    }
 }
 
 /// From the unit sphere, disk or square of the kernels to the world.

@@ -1,8 +1,9 @@
 //! The table of lights, chosen by power.
 
-use super::geometry::{Placed, Source, mirrors, part_materials};
+use super::geometry::{Placed, Source};
 use super::textures::References;
-use super::{Prepared, alias};
+use super::triangles::{mirrors, part_materials};
+use super::{Bounds, Prepared, alias};
 use crate::layout::{
     LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE, Light, NONE,
 };
@@ -17,11 +18,50 @@ struct Entry {
     power: Option<f64>,
 }
 
-/// Fills `lights`, the light of each instance, and the chance of the environment.
+/// The box around all that is lit: the camera, which sees lamps, and what does not shine all over.
+pub(super) fn receivers(scene: &Scene, placed: &[Placed]) -> Bounds {
+    let dark = |material| scene.materials[material].emission.is_none();
+    let is_lit = |place: &&Placed| match place.source {
+        Source::Shape(i) => dark(scene.shapes[i].material),
+        Source::Mesh(i) => {
+            let instance = &scene.instances[i];
+            let parts = &scene.meshes[instance.mesh].parts;
+            parts.iter().any(|part| dark(part.material.unwrap_or(instance.material)))
+                || parts.is_empty() && dark(instance.material)
+        }
+    };
+    let mut bounds = Bounds { min: scene.camera.position, max: scene.camera.position };
+    placed.iter().filter(is_lit).for_each(|place| bounds.join(&place.bounds));
+    bounds
+}
+
+/// What a lamp with a surface brings at most to a white surface among `receivers`, as radiance: its own, or by the solid
+/// angle that it fills there.
+fn brought(entry: &Entry, receivers: &Bounds) -> f64 {
+    let light = &entry.light;
+    let axis = match light.kind {
+        LIGHT_SPHERE => Vec3::new(light.uv0[0], light.uv0[1], light.uv1[0]),
+        LIGHT_QUAD | LIGHT_DISK | LIGHT_TRIANGLE => Vec3::ZERO,
+        _ => return 0.0,
+    };
+    let extent = axis.length() + Vec3::from(light.edge_u).length() + Vec3::from(light.edge_v).length();
+    let distance = f64::from((receivers.distance(light.position.into()) - extent).max(0.0));
+    let least = (PI * distance * distance).max(f64::from(light.b)).max(f64::MIN_POSITIVE);
+    entry.power.unwrap_or(0.0) / PI / least
+}
+
+/// Fills `lights`, the light of each instance, and the chance of the environment. Gives the radiance that lamps with a
+/// surface bring to a white surface among `receivers`, at most.
 ///
 /// Light from infinity has no power that compares with that of lamps: each distant light and the environment get the same
 /// chance as all lamps together (pbrt-v4, section 12.6.3, treats infinite lights alike).
-pub(super) fn prepare(scene: &Scene, textures: &References, placed: Vec<Placed>, out: &mut Prepared) {
+pub(super) fn prepare(
+    scene: &Scene,
+    textures: &References,
+    placed: Vec<Placed>,
+    receivers: &Bounds,
+    out: &mut Prepared,
+) -> f64 {
     let mut entries = Vec::new();
     for place in placed {
         let first = entries.len();
@@ -52,13 +92,15 @@ pub(super) fn prepare(scene: &Scene, textures: &References, placed: Vec<Placed>,
         for instance in &mut out.instances {
             instance.light = NONE;
         }
-        return;
+        return 0.0;
     }
+    let brought = entries.iter().map(|entry| brought(entry, receivers)).sum();
     for (entry, slot) in entries.into_iter().zip(alias::table(&weights)) {
         out.features.light_kinds |= 1 << entry.light.kind;
         let chance = slot.chance * (1.0 - out.environment_chance);
         out.lights.push(Light { chance, accept: slot.accept, alias: slot.alias, ..entry.light });
     }
+    brought
 }
 
 /// Mean of a colour.

@@ -1,6 +1,7 @@
 //! What the camera is inside of: paths begin in that glass.
 
-use super::geometry::{part_materials, shape_frame};
+use super::geometry::shape_frame;
+use super::triangles::part_materials;
 use crate::layout::NONE;
 use crate::scene::{Handle, Instance, Material, Scene, Shape, ShapeKind, Surface};
 use glam::{Affine3A, DVec3, Vec3};

@@ -12,6 +12,8 @@ mod lights;
 mod materials;
 mod medium;
 mod textures;
+mod triangles;
+mod units;
 mod variant;
 mod wide;
 
@@ -21,11 +23,8 @@ pub use variant::{Stage, defines, stack_size};
 pub use wide::{Leaves, Tree};
 
 use crate::Result;
-use crate::layout::{
-    EnvironmentCell, Face, Instance, Item, LIGHT_DISTANT, LIGHT_POINT, LIGHT_SPOT, Light, Material, Vertex,
-};
-use crate::scene::{Scene, Surface, Value};
-use glam::Vec3;
+use crate::layout::{EnvironmentCell, Face, Instance, Item, Light, Material, Vertex};
+use crate::scene::Scene;
 
 /// Everything that the kernels need of a scene, as plain records in the order of the bindings.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -156,57 +155,13 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
     let textures = textures::prepare(scene, &mut out)?;
     materials::prepare(scene, &textures, &mut out);
     let placed = geometry::prepare(scene, &mut out)?;
-    lights::prepare(scene, &textures, placed, &mut out);
+    let receivers = lights::receivers(scene, &placed);
+    let lamps = lights::prepare(scene, &textures, placed, &receivers, &mut out);
     environment::prepare(scene, &textures, &mut out);
     if out.features.medium {
         out.camera_medium = medium::around_camera(scene);
     }
     out.features.lens = scene.camera.lens.is_some();
-    choose_units(scene, &textures, &mut out);
+    units::choose(scene, &textures, &receivers, lamps, &mut out);
     Ok(out)
-}
-
-/// Units of the fixed-point sums: 2³⁰ steps up to the brightest thing, and a sample may be 2⁸ times as bright; 2²⁴ steps
-/// to the far end of the scene.
-fn choose_units(scene: &Scene, textures: &textures::References, out: &mut Prepared) {
-    let of = |value: &Value<Vec3>| match value {
-        Value::Constant(color) => color.max_element(),
-        Value::Texture(texture) => textures.max(*texture),
-    };
-    let environment = scene.environment.as_ref().map_or(0.0, |e| of(&e.radiance) * e.scale);
-    let surfaces = scene.materials.iter().flat_map(|(_, _, material)| {
-        let unlit = match &material.surface {
-            Surface::Unlit { color } => of(color),
-            _ => 0.0,
-        };
-        [unlit, material.emission.as_ref().map_or(0.0, |emission| of(&emission.radiance))]
-    });
-    let size = out.bounds.diagonal().max(f32::MIN_POSITIVE);
-    let lights = out.lights.iter().map(|light| punctual_radiance(light, scene.camera.position, size));
-    let brightest = lights.chain(surfaces).fold(environment.max(1.0), f32::max);
-    out.radiance_exponent = (brightest.log2().ceil().min(100.0) as i32 - 30).clamp(-60, 60);
-    let size = out.bounds.diagonal();
-    let away = if size > 0.0 {
-        scene.camera.position.distance(0.5 * (out.bounds.min + out.bounds.max))
-    } else {
-        0.0
-    };
-    let far = (away + size).clamp(1e-6, f32::MAX);
-    out.depth_exponent = (far.log2().ceil() as i32 - 24).clamp(-60, 60);
-}
-
-/// What a light without extent brings to a sample near it. Near is a quarter of the distance at which the camera is
-/// likely to look: as far from the light as the camera is, but between 1/64 and 1/8 of the scene. A sample stands for all
-/// lights, so a light that is rarely chosen counts for more. 0 for surfaces, whose samples are weighed against the BSDF
-/// and stay near their radiance.
-fn punctual_radiance(light: &Light, camera: Vec3, size: f32) -> f32 {
-    let all = Vec3::from(light.radiance).max_element() / light.chance.max(1e-9);
-    match light.kind {
-        LIGHT_POINT | LIGHT_SPOT => {
-            let distance = 0.25 * camera.distance(light.position.into()).clamp(size / 64.0, size / 8.0);
-            all / (distance * distance)
-        }
-        LIGHT_DISTANT => all,
-        _ => 0.0,
-    }
 }

@@ -230,3 +230,52 @@ fn light_of_a_stretched_sphere_is_found_by_both_strategies() {
         expect_grey(mean(&render(&s)), expected, 3e-3);
     }
 }
+
+/// A small grey floor below the camera.
+fn small_floor() -> Scene {
+    let mut s = scene(4, 4, 64);
+    s.render.max_depth = 1;
+    s.camera = look(Vec3::new(0.0, 1.0, 0.5), Vec3::ZERO, 20.0);
+    let m = s.diffuse(0.5);
+    s.quad(Vec3::new(-1.0, 0.0, 1.0), Vec3::X * 2.0, Vec3::NEG_Z * 2.0, m);
+    s
+}
+
+#[test]
+fn lamps_that_are_bright_and_far_light_as_much_as_they_should() {
+    // Irradiance by the solid angle, which is π r² / d² but for a part in 10⁹
+    let (radiance, away) = (1e12_f32, 1e6_f32);
+    let at = Vec3::Y * away;
+    let mut s = small_floor();
+    let lamp = s.emitter(grey(radiance), false);
+    s.sphere(at, 1.0, lamp);
+    expect_grey(mean(&render(&s)), 0.5, 1e-4);
+
+    let mut s = small_floor();
+    let lamp = s.emitter(grey(radiance), false);
+    s.disk(at, Vec3::NEG_Y, 1.0, lamp);
+    expect_grey(mean(&render(&s)), 0.5, 1e-4);
+
+    let mut s = small_floor();
+    let lamp = s.emitter(grey(radiance), false);
+    let mesh =
+        s.meshes.add("lamp", rectangle_mesh(at - Vec3::new(1.0, 0.0, 1.0), Vec3::X * 2.0, Vec3::Z * 2.0));
+    s.place(mesh, lamp, Affine3A::IDENTITY);
+    expect_grey(mean(&render(&s)), 0.5 * 4.0 / PI, 1e-4);
+
+    let mut s = small_floor();
+    s.lights.push(point(at, radiance));
+    expect_grey(mean(&render(&s)), 0.5 / PI, 1e-4);
+}
+
+#[test]
+fn a_bright_lamp_is_seen_as_bright_as_it_is() {
+    // Near, and so far that it fills 10⁻⁵ of the half space: no sample of it is clamped
+    for distance in [3.0_f32, 200.0] {
+        let mut s = small_floor();
+        s.camera = look(Vec3::Y, Vec3::Y + Vec3::NEG_Z, 0.01);
+        let lamp = s.emitter(grey(1e12), false);
+        s.quad(Vec3::new(-1.0, 0.0, -distance), Vec3::X * 2.0, Vec3::Y * 2.0, lamp);
+        expect_every_pixel(&render(&s), [1e12; 3], 1e-6);
+    }
+}

@@ -20,5 +20,6 @@ mod light;
 mod offset;
 mod paths;
 mod planes;
+mod sizes;
 mod texture;
 mod traversal;

@@ -1,0 +1,86 @@
+//! Meshes to records of triangles, with the shading data of their vertices.
+
+use super::Prepared;
+use crate::layout::{Face, NONE, Triangle, Vertex};
+use crate::scene::{Handle, Material, Mesh};
+use glam::{Affine3A, Mat3A, Vec2, Vec3};
+
+/// The triangles of a mesh as records, with their vertices. Gives the first of their faces, or NONE. `instance` is set for
+/// what is put into world space; a map that mirrors turns the triangles round, so that they stay counter-clockwise from
+/// outside.
+pub(super) fn push_triangles(
+    mesh: &Mesh,
+    map: &Affine3A,
+    instance: Option<u32>,
+    out: &mut Prepared,
+    triangles: &mut Vec<Triangle>,
+) -> u32 {
+    let mirrored = mirrors(map);
+    let normal_map = normal_map(map);
+    let has_vertices = !mesh.normals.is_empty() || !mesh.uvs.is_empty();
+    let (first_face, first_vertex) = (out.faces.len() as u32, out.vertices.len() as u32);
+    if has_vertices {
+        out.vertices.extend((0..mesh.positions.len()).map(|i| {
+            let normal = mesh.normals.get(i).map_or(Vec3::ZERO, |n| normal_map * *n);
+            let uv = mesh.uvs.get(i).copied().unwrap_or(Vec2::ZERO);
+            Vertex { normal: normal.into(), u: uv.x, v: uv.y, spare: [0.0; 3] }
+        }));
+    }
+    let materials = part_materials(mesh);
+    triangles.reserve(mesh.triangles.len());
+    for (i, corners) in mesh.triangles.iter().enumerate() {
+        let [a, b, c] = if mirrored { [corners[0], corners[2], corners[1]] } else { *corners };
+        let position = |v: u32| map.transform_point3(mesh.positions[v as usize]).to_array();
+        if has_vertices {
+            out.faces.push(Face { vertices: [a, b, c].map(|v| first_vertex + v), spare: 0 });
+        }
+        triangles.push(Triangle {
+            a: position(a),
+            instance: instance.unwrap_or(NONE),
+            b: position(b),
+            material: materials.get(i).copied().flatten().map_or(NONE, |material| material.index() as u32),
+            c: position(c),
+            primitive: i as u32,
+        });
+    }
+    if has_vertices { first_face } else { NONE }
+}
+
+/// The map of normals, up to a factor that is the same for all: normals are interpolated before they get unit length, so
+/// that a mesh put into world space looks like one that is mapped by the kernels.
+fn normal_map(map: &Affine3A) -> Mat3A {
+    let m = map.as_daffine3().matrix3.inverse().transpose();
+    let longest = m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
+    let m = if longest > 0.0 { m * (1.0 / longest) } else { m };
+    Mat3A::from_cols(m.x_axis.as_vec3a(), m.y_axis.as_vec3a(), m.z_axis.as_vec3a())
+}
+
+/// Material of each triangle, none for that of the instance; empty when no part has one of its own.
+pub(super) fn part_materials(mesh: &Mesh) -> Vec<Option<Handle<Material>>> {
+    if mesh.parts.iter().all(|part| part.material.is_none()) {
+        return Vec::new();
+    }
+    let mut materials = vec![None; mesh.triangles.len()];
+    for part in &mesh.parts {
+        if let Some(slots) = materials.get_mut(part.triangles.start as usize..part.triangles.end as usize) {
+            slots.fill(part.material);
+        }
+    }
+    materials
+}
+
+/// Whether a map mirrors.
+pub(super) fn mirrors(map: &Affine3A) -> bool {
+    map.as_daffine3().matrix3.determinant() < 0.0
+}
+
+/// The unit square as two triangles: uv = position.
+pub(super) fn quad_mesh() -> Mesh {
+    let corners = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+    Mesh {
+        positions: corners.iter().map(|c| c.extend(0.0)).collect(),
+        uvs: corners.to_vec(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
+    }
+}
