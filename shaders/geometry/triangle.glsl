@@ -37,8 +37,8 @@ bool triangle_hit(vec3 a, vec3 b, vec3 c, TriangleRay ray, float t_max, out floa
     float sum = u + v + w;
     float inverse = 1.0 / sum;
     bary = vec2(v, w) * inverse;
-    // Weights first: a float may not hold the product of an area and a length
-    t = (u * inverse * pa.z + bary.x * pb.z + bary.y * pc.z) * ray.shear.z;
+    // One product after the division, on which all waits; the sum is a float for triangles up to a size of 10¹²
+    t = (u * pa.z + v * pb.z + w * pc.z) * inverse * ray.shear.z;
     bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
     return inside && sum != 0.0 && t > 0.0 && t < t_max;
 }

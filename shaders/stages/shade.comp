@@ -34,6 +34,10 @@ void shade_miss(inout Path path, vec3 direction)
 #endif
 }
 
+// Part of the way to a light that a shadow ray goes: what is nearer to the light than the rest, as its own box in the tree, is
+// not looked at (pbrt-v4 has 1 - 10^-4).
+const float SHADOW_END = 1.0 - 1.0 / 16384.0;
+
 // Where a ray leaves a surface; `side` is its cosine with the geometric normal.
 vec3 ray_origin(Surface surface, float side)
 {
@@ -64,7 +68,7 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
     vec3 origin = ray_origin(surface, side);
     vec3 target = offset_ray_origin(light.point, light.normal, light.reach);
     vec3 direction = light.infinite ? light.wi : target - origin;
-    store_shadows(slot * SHADOW_WORDS, uvec4(floatBitsToUint(origin), floatBitsToUint(light.infinite ? FAR : 1.0)));
+    store_shadows(slot * SHADOW_WORDS, uvec4(floatBitsToUint(origin), floatBitsToUint(light.infinite ? FAR : SHADOW_END)));
     store_shadows(slot * SHADOW_WORDS + 1u, uvec4(floatBitsToUint(direction), 0u));
     store_shadows(slot * SHADOW_WORDS + 2u, uvec4(floatBitsToUint(radiance), 0u));
     queue_append(QUEUE_SHADOWS, next, direction, slot);
