@@ -40,7 +40,7 @@ pub enum Command {
 pub struct BenchArgs {
     /// A scene to measure in place of the built-in ones
     pub scene: Option<PathBuf>,
-    /// Samples a pixel; default: what each scene says, more where that takes less than half a second
+    /// Samples a pixel; default: what each scene says, more where that takes less than 0.2 s
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     pub spp: Option<u32>,
     /// Rounds of which the best counts

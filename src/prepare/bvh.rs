@@ -187,6 +187,15 @@ mod tests {
     }
 
     #[test]
+    fn a_box_that_spans_more_than_f64_can_tell_holds_its_corners() {
+        let bounds = |min: f32, max: f32| Bounds { min: Vec3::splat(min), max: Vec3::splat(max) };
+        let bounds = vec![bounds(-225.0 * 2_f32.powi(88), 6.0), bounds(-3.0, 0.0), bounds(1.0, 7.0)];
+        for max_leaf in [1, 2] {
+            check(&build(bounds.clone(), max_leaf, Quality::Default, &NUMBERS), &bounds, max_leaf);
+        }
+    }
+
+    #[test]
     fn coincident_boxes_stay_within_the_stack() {
         let bounds = vec![Bounds { min: Vec3::ZERO, max: Vec3::ONE }; 20_000];
         let tree = build(bounds.clone(), 4, Quality::Default, &NUMBERS);

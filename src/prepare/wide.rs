@@ -146,15 +146,28 @@ fn with_boxes(parent: &Bvh2Node, binary: &Bvh2, children: &[u32]) -> Node {
         node.exponents |= exponent << (8 * axis);
         for (i, &child) in children.iter().enumerate() {
             let aabb = binary.nodes[child as usize].aabb();
-            let steps = |corner: f32| (f64::from(corner) - f64::from(low[axis])) / step;
-            // The step is a power of two: both are exact before they are rounded
-            let from = steps(aabb.min.to_array()[axis]).floor().clamp(0.0, 255.0) as u32;
-            let to = steps(aabb.max.to_array()[axis]).ceil().clamp(0.0, 255.0) as u32;
+            // The step is a power of two: the quotients are exact
+            let (from, _) = difference(aabb.min.to_array()[axis], low[axis]);
+            let (_, to) = difference(aabb.max.to_array()[axis], low[axis]);
+            let from = (from / step).floor().clamp(0.0, 255.0) as u32;
+            let to = (to / step).ceil().clamp(0.0, 255.0) as u32;
             node.low[axis] |= from << (8 * i);
             node.high[axis] |= to << (8 * i);
         }
     }
     node
+}
+
+/// a − b, rounded down and up. In most cases both are exact; the rest of a difference is known (Knuth, TAOCP 4.2.2).
+fn difference(a: f32, b: f32) -> (f64, f64) {
+    let (a, b) = (f64::from(a), f64::from(b));
+    let rounded = a - b;
+    let part = rounded - a;
+    let rest = (a - (rounded - part)) - (b + part);
+    (
+        if rest < 0.0 { rounded.next_down() } else { rounded },
+        if rest > 0.0 { rounded.next_up() } else { rounded },
+    )
 }
 
 /// The least biased exponent whose 255 steps are not shorter than `extent`.

@@ -9,7 +9,7 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use dapple::film::{Film, Picture};
-use dapple::gpu::{DeviceChoice, Gpu};
+use dapple::gpu::{DeviceChoice, DeviceType, Gpu};
 use dapple::render::{Next, Options, Renderer};
 use dapple::scene::{
     Camera, Conductor, Dielectric, Emission, Environment, FovAxis, Fresnel, Handle, Image, ImageTexture,
@@ -324,4 +324,11 @@ pub fn integrate_square(n: u32, f: impl Fn(f64, f64) -> f64) -> f64 {
     let at = |i: u32| (f64::from(i) + 0.5) / f64::from(n);
     (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| f(at(i), at(j))).sum::<f64>()
         / f64::from(n).powi(2)
+}
+
+/// The powers of two by which a scene may be scaled and no bit of its picture changes: all of them on a CPU device; on others,
+/// which flush denormals and divide approximately near the ends of the range, those up to `most`.
+pub fn exact_scales(exponents: &[i32], most: i32) -> impl Iterator<Item = i32> {
+    let all = gpu().info().kind == DeviceType::Cpu;
+    exponents.iter().copied().filter(move |exponent| all || exponent.abs() <= most)
 }

@@ -94,8 +94,9 @@ fn polygon_points_are_uniform_and_go_back_to_the_square() {
             // At a corner rounding decides the side: the other one has the same point at its other end
             let corner = at.min(1.0 - at) < 1e-4 || share < 1e-4;
             let back = (side as f64 + share * share) / n;
-            assert!(corner || (back - u).abs() < 2e-6, "{corners} corners: {u} comes back as {back}");
-            assert!(corner || (at - v).abs() * share < 2e-6, "{corners} corners: {v} comes back as {at}");
+            // Sines of GPUs are off by up to 2⁻²⁰
+            assert!(corner || (back - u).abs() < 4e-6, "{corners} corners: {u} comes back as {back}");
+            assert!(corner || (at - v).abs() * share < 4e-6, "{corners} corners: {v} comes back as {at}");
             on_side[side].push([share * share, at.clamp(0.0, 1.0)]);
         }
         results.push((format!("sides of {corners}"), chi2::test_uniform(&sides)));

@@ -226,7 +226,7 @@ impl<'a> Bench<'a> {
 }
 
 /// Renders that take fewer seconds would measure how slices grow: they get more samples, unless it was said how many.
-const SHORTEST: f64 = 0.5;
+const SHORTEST: f64 = 0.2;
 const MOST_SPP: u32 = 4096;
 
 /// Seconds of a render, and its mean radiance.
