@@ -192,7 +192,7 @@ records! {
         children: u32,
     }
 
-    /// A triangle in the order of the tree. As many words as a [`Node`]: both are an [`Item`] of one buffer.
+    /// A triangle in the order of the tree. As many words as a [`Node`]: both are an [`Item`](super::Item) of one buffer.
     struct Triangle {
         /// first vertex, in the space of its tree
         a: [f32; 3],
