@@ -8,9 +8,10 @@ use dapple::layout::{BINDINGS, Backend, Binding, BindingKind, WORKGROUP};
 use dapple::prepare::{self, Prepared, Stage};
 use dapple::render;
 use dapple::scene::{
-    Aperture, Channel, ColorSpace, Conductor, Dielectric, Emission, Environment, FilterKind, Fresnel, Handle,
-    Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Sampler, Scene, Shape, ShapeKind,
-    Surface, TexelFilter, Texels, Texture, UvTransform, Value, Wrap,
+    Aperture, Channel, ColorSpace, Conductor, Coordinates, Dielectric, Emission, Environment, FilterKind,
+    Fresnel, Handle, Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Noise, NoiseSum,
+    PatternSpace, Sampler, Scene, Shape, ShapeKind, Surface, TexelFilter, Texels, Texture, UvTransform,
+    Value, Wrap,
 };
 use dapple::shader::{BindingClass, Compiler, Reflection, Spirv, reflect, scan, translates_to_wgsl};
 use glam::{Affine3A, Mat3, Vec3};
@@ -142,6 +143,31 @@ fn lobes() -> Scene {
     scene
 }
 
+/// Every kind of texture, one in the other.
+fn trees() -> Scene {
+    let mut scene = Scene::default();
+    let mut last = scene.textures.add("paper", Texture::Constant(Vec3::ONE));
+    let spaces = [Coordinates::Uv, Coordinates::Object, Coordinates::World];
+    for (coordinates, sum) in spaces.into_iter().zip([NoiseSum::Fbm, NoiseSum::Turbulence, NoiseSum::Fbm]) {
+        let space = PatternSpace { coordinates, pattern_from_space: Affine3A::IDENTITY };
+        let (low, high) = (Value::Texture(last), constant(0.5));
+        let noise = Noise { sum, octaves: 2, gain: 0.5, lacunarity: 2.0, low, high, space };
+        let noise = Value::Texture(scene.textures.add("noise", Texture::Noise(noise)));
+        let checker = Texture::Checker { even: noise, odd: constant(0.2), space };
+        let a = Value::Texture(scene.textures.add("checker", checker));
+        let inverted = Value::Texture(scene.textures.add("inverted", Texture::Invert { value: a }));
+        let product = Value::Texture(scene.textures.add("product", Texture::Multiply { a, b: inverted }));
+        let sum = scene.textures.add("sum", Texture::Add { a: product, b: noise });
+        last = scene.textures.add("mixed", Texture::Mix { a, b: inverted, amount: Value::Texture(sum) });
+    }
+    let shade = Surface::Diffuse { color: Value::Texture(last) };
+    let lamp = material(&mut scene, shade, Some(Value::Texture(last)));
+    place_triangle(&mut scene, lamp, 1);
+    place_shape(&mut scene, lamp, sphere());
+    scene.environment = surroundings(Value::Texture(last));
+    scene
+}
+
 fn textured() -> Scene {
     let mut scene = Scene::default();
     let bytes = || Texels::Rgba8(vec![[9, 99, 200, 255]; 2]);
@@ -175,13 +201,14 @@ fn textured() -> Scene {
 }
 
 /// Scenes that together switch every feature on and off.
-fn scenes() -> [(&'static str, Scene); 5] {
+fn scenes() -> [(&'static str, Scene); 6] {
     [
         ("empty", Scene::default()),
         ("one triangle and a point light", plain()),
         ("shapes, instances, area lights, a lens", shapes()),
         ("glass, metal, Phong, a constant environment behind a transparent film", lobes()),
         ("textures everywhere", textured()),
+        ("every kind of texture", trees()),
     ]
 }
 

@@ -24,7 +24,7 @@ vec3 environment_radiance(vec3 direction)
 #ifdef ENVIRONMENT_IMAGE
     vec2 uv = environment_uv(direction);
     TextureContext context = TextureContext(direction, direction, uv, direction, 0.0, 0.0);
-    return texture_evaluate(frame.environment_texture, context).rgb * frame.environment_scale;
+    return max(texture_evaluate(frame.environment_texture, context).rgb, vec3(0.0)) * frame.environment_scale;
 #else
     return frame.environment_radiance;
 #endif

@@ -41,7 +41,7 @@ LightSample light_surface_point(Light light, vec3 from, vec3 point, vec3 normal,
 #ifdef TEXTURED_EMISSION
     if (light.texture != NONE) {
         TextureContext context = TextureContext(point, point, uv, normal, 0.0, 0.0);
-        radiance *= texture_evaluate(light.texture, context).rgb;
+        radiance *= max(texture_evaluate(light.texture, context).rgb, vec3(0.0));
     }
 #endif
     vec3 reach = abs(light.position) + abs(light.edge_u) + abs(light.edge_v);

@@ -18,12 +18,12 @@ Material material_fetch(uint i)
 // A colour or number that a texture may drive.
 vec3 textured_color(vec3 constant, uint texture_reference, TextureContext context)
 {
-    return texture_reference == NONE ? constant : texture_evaluate(texture_reference, context).rgb;
+    return texture_reference == NONE ? constant : max(texture_evaluate(texture_reference, context).rgb, vec3(0.0));
 }
 
 float textured_number(float constant, uint texture_reference, TextureContext context)
 {
-    return texture_reference == NONE ? constant : mean_component(texture_evaluate(texture_reference, context).rgb);
+    return texture_reference == NONE ? constant : max(mean_component(texture_evaluate(texture_reference, context).rgb), 0.0);
 }
 
 vec3 material_emission(Material m, TextureContext context)

@@ -311,6 +311,51 @@ ImageTexture image_texture_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
     return r;
 }
 
+struct Pattern {
+    vec4 row0; // row 0 of pattern from space
+    vec4 row1; // row 1 of pattern from space
+    vec4 row2; // row 2 of pattern from space
+};
+const uint PATTERN_WORDS = 3u;
+Pattern pattern_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
+{
+    Pattern r;
+    r.row0 = uintBitsToFloat(uvec4(w0.x, w0.y, w0.z, w0.w));
+    r.row1 = uintBitsToFloat(uvec4(w1.x, w1.y, w1.z, w1.w));
+    r.row2 = uintBitsToFloat(uvec4(w2.x, w2.y, w2.z, w2.w));
+    return r;
+}
+
+struct NoiseSum {
+    uint octaves; // number of octaves
+    float gain; // factor on the amplitude from one octave to the next
+    float lacunarity; // factor on the frequency from one octave to the next
+    float scale; // 1 / sum of the amplitudes
+};
+const uint NOISE_SUM_WORDS = 1u;
+NoiseSum noise_sum_unpack(uvec4 w0)
+{
+    NoiseSum r;
+    r.octaves = w0.x;
+    r.gain = uintBitsToFloat(w0.y);
+    r.lacunarity = uintBitsToFloat(w0.z);
+    r.scale = uintBitsToFloat(w0.w);
+    return r;
+}
+
+struct TextureInput {
+    vec3 value; // the constant
+    uint at; // word of the record of the texture
+};
+const uint TEXTURE_INPUT_WORDS = 1u;
+TextureInput texture_input_unpack(uvec4 w0)
+{
+    TextureInput r;
+    r.value = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.at = w0.w;
+    return r;
+}
+
 struct Light {
     uint kind; // LIGHT_… kind
     float chance; // chance of choosing it

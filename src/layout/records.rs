@@ -320,6 +320,36 @@ records! {
         flags: u32,
     }
 
+    /// Where a pattern is. Rows of a 3×4 matrix.
+    struct Pattern {
+        /// row 0 of pattern from space
+        row0: [f32; 4],
+        /// row 1 of pattern from space
+        row1: [f32; 4],
+        /// row 2 of pattern from space
+        row2: [f32; 4],
+    }
+
+    /// A sum of noise.
+    struct NoiseSum {
+        /// number of octaves
+        octaves: u32,
+        /// factor on the amplitude from one octave to the next
+        gain: f32,
+        /// factor on the frequency from one octave to the next
+        lacunarity: f32,
+        /// 1 / sum of the amplitudes
+        scale: f32,
+    }
+
+    /// What a texture is made of: a constant, or another texture.
+    struct TextureInput {
+        /// the constant
+        value: [f32; 3],
+        /// word of the record of the texture
+        at: u32,
+    }
+
     /// A light, with its place in the alias table (Vose 1991) that chooses by power.
     struct Light {
         /// LIGHT_… kind

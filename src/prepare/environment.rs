@@ -4,11 +4,13 @@ use super::atlas::Reader;
 use super::textures::References;
 use super::{Prepared, alias};
 use crate::layout::EnvironmentCell;
-use crate::scene::{ColorSpace, Environment, Image, ImageTexture, Scene, Texture};
+use crate::scene::{ColorSpace, Environment, Image, Scene, Texture, UvTransform};
 use std::f64::consts::PI;
 
 /// Most columns of the table. A wider image is averaged: the table only says where to look more often.
 const MOST_COLUMNS: u32 = 1024;
+/// Columns and rows of a table that says the same everywhere.
+const EVEN_CELLS: [u32; 2] = [64, 32];
 /// Share of the samples that goes to all directions alike, so that no light is missed where the table is coarse.
 const EVEN_SHARE: f64 = 0.02;
 
@@ -16,10 +18,18 @@ const EVEN_SHARE: f64 = 0.02;
 pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) {
     let Some(environment) = &scene.environment else { return };
     let Some(handle) = environment.texture() else { return };
-    let Texture::Image(texture) = &scene.textures[handle];
     out.features.environment_image = true;
     out.environment_texture = textures.reference(handle);
-    let weights = weights(texture, &scene.images[texture.image], out);
+    let weights = match &scene.textures[handle] {
+        // A moved or scaled image is looked at evenly, as are other textures: right, if noisier.
+        Texture::Image(image) if image.uv == UvTransform::default() => {
+            let (texture, image) = (image, &scene.images[image.image]);
+            let read = Reader { image, decode: texture.color_space == ColorSpace::Srgb };
+            let size = [image.width.min(MOST_COLUMNS), image.height.clamp(1, MOST_COLUMNS / 2)];
+            weights(size, out, |column, row| cell(&read, image, column, size[1] - 1 - row, size))
+        }
+        _ => weights(EVEN_CELLS, out, |_, _| 1.0),
+    };
     out.environment = alias::table(&weights)
         .into_iter()
         .map(|slot| EnvironmentCell { accept: slot.accept, alias: slot.alias, chance: slot.chance, spare: 0 })
@@ -27,18 +37,13 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
 }
 
 /// Brightness times solid angle of each cell, row by row, v growing with the row.
-fn weights(texture: &ImageTexture, image: &Image, out: &mut Prepared) -> Vec<f64> {
-    let plain = texture.uv == crate::scene::UvTransform::default();
-    let size = [image.width.min(MOST_COLUMNS), image.height.clamp(1, MOST_COLUMNS / 2)];
+fn weights(size: [u32; 2], out: &mut Prepared, brightness: impl Fn(u32, u32) -> f64) -> Vec<f64> {
     out.environment_size = size;
-    let read = Reader { image, decode: texture.color_space == ColorSpace::Srgb };
     let latitude = |row: u32| ((f64::from(row) + 0.5) / f64::from(size[1]) - 0.5) * PI;
     let mut weights = Vec::with_capacity(size[0] as usize * size[1] as usize);
     for row in 0..size[1] {
         for column in 0..size[0] {
-            // A moved or scaled image is looked at evenly: right, if noisier.
-            let brightness = if plain { cell(&read, image, column, size[1] - 1 - row, size) } else { 1.0 };
-            weights.push(brightness * latitude(row).cos());
+            weights.push(brightness(column, row) * latitude(row).cos());
         }
     }
     let sum: f64 = weights.iter().sum();

@@ -1,23 +1,31 @@
 //! Texture trees to GLSL and records.
 //!
 //! A texture is named in the kernels by a reference: the shape of its tree in the upper 8 bits, the word of its record in
-//! the lower 24. Textures of one shape share one case of the generated function; what differs between them is read from
-//! their records, so that changing a number compiles nothing.
+//! the lower 24. Textures of one shape share one generated function; what differs between them is read from their records,
+//! so that changing a number compiles nothing. Trees of constants are folded, and equal trees have one record.
 
-use super::Prepared;
-use super::atlas::{Atlas, Format, Reader};
-use crate::layout::{CHANNEL_A, CHANNEL_B, CHANNEL_G, CHANNEL_R, CHANNEL_RGB, CHANNEL_SHIFT};
-use crate::layout::{FLAG_INVERT, FLAG_NEAREST, ImageTexture, Record};
-use crate::layout::{WRAP_BLACK, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT, WRAP_V_SHIFT};
-use crate::scene::{self, Channel, Handle, Scene, TexelFilter, Texture, Wrap};
+use super::atlas::{Atlas, Place};
+use super::texture_glsl::{Input, Shape, glsl};
+use super::texture_image::{brightness, record};
+use super::{Prepared, noise};
+use crate::layout::{NoiseSum as NoiseRecord, Pattern, TextureInput};
+use crate::scene::{Handle, Noise, NoiseSum, PatternSpace, Scene, Texture, Value};
 use crate::{Error, Result};
-use std::fmt::Write as _;
+use glam::Vec3;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Least, mean and largest of the values of a texture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Range {
+    pub min: f64,
+    pub mean: f64,
+    pub max: f64,
+}
 
 /// References of the textures of a scene, and how bright they are.
 pub(super) struct References {
     references: Vec<u32>,
-    means: Vec<f64>,
-    maxima: Vec<f32>,
+    ranges: Vec<Range>,
 }
 
 impl References {
@@ -26,118 +34,285 @@ impl References {
         self.references[handle.index()]
     }
 
-    /// Mean of its values over the picture.
+    /// Mean of its values: over the picture, or over space.
     pub(super) fn mean(&self, handle: Handle<Texture>) -> f64 {
-        self.means[handle.index()]
+        self.ranges[handle.index()].mean
     }
 
-    /// Largest of its values over the picture.
+    /// A bound of its values.
     pub(super) fn max(&self, handle: Handle<Texture>) -> f32 {
-        self.maxima[handle.index()]
+        self.ranges[handle.index()].max as f32
     }
 }
 
 /// Fills `textures`, `texels` and `texture_glsl`.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
+    if let Some(handle) = Texture::without_end(&scene.textures) {
+        let name = scene.textures.name(handle);
+        return Err(Error::scene(format!("texture `{name}` {}", Texture::ENDLESS)));
+    }
     let mut atlas = Atlas::default();
-    let mut places = Vec::new();
-    for (_, _, Texture::Image(texture)) in scene.textures.iter() {
-        places.push((texture, atlas.place(scene, texture)?));
+    let mut places = BTreeMap::new();
+    for (handle, _, texture) in scene.textures.iter() {
+        if let Texture::Image(texture) = texture {
+            places.insert(handle, atlas.place(scene, texture)?);
+        }
     }
-    if places.len() * ImageTexture::WORDS as usize >= 1 << 24 {
+    let direct = direct(scene);
+    let has_noise = scene.textures.iter().any(|(_, _, texture)| matches!(texture, Texture::Noise(_)));
+    // The kernels look for it at the start
+    let words = if has_noise { noise::words().collect() } else { Vec::new() };
+    let done = vec![None; scene.textures.len()];
+    let mut builder = Builder { scene, atlas, places, shapes: Vec::new(), words, kept: HashMap::new(), done };
+    let mut references = References { references: Vec::new(), ranges: Vec::new() };
+    let nodes: Vec<Node> = scene.textures.iter().map(|(handle, ..)| builder.node(handle)).collect();
+    let mut roots = vec![false; builder.shapes.len()];
+    for ((handle, ..), node) in scene.textures.iter().zip(&nodes) {
+        roots[node.shape as usize] |= direct.contains(&handle);
+        references.references.push(node.shape << 24 | node.at);
+        references.ranges.push(node.range);
+    }
+    let Builder { atlas, shapes, words, .. } = builder;
+    if words.len() >= 1 << 24 || shapes.len() >= 255 {
+        let (count, most) = (shapes.len(), 1 << 24);
         return Err(Error::scene(format!(
-            "{} textures are too many: their records take 2^24 words",
-            places.len()
-        )));
+            "textures have {count} shapes and {} words of records",
+            words.len()
+        ))
+        .help(format!("there may be 254 shapes and {most} words: use fewer textures")));
     }
-    let mut shapes: Vec<Format> = Vec::new();
-    let mut references = References { references: Vec::new(), means: Vec::new(), maxima: Vec::new() };
-    for (texture, place) in places {
-        let shape = shapes.iter().position(|format| *format == place.format).unwrap_or_else(|| {
-            shapes.push(place.format);
-            shapes.len() - 1
-        });
-        let image = &scene.images[texture.image];
-        let word = out.textures.len() as u32;
-        let record = record(texture, image, atlas.address(place));
-        out.textures.extend_from_slice(bytemuck::cast_slice(std::slice::from_ref(&record)));
-        references.references.push((shape as u32) << 24 | word);
-        let (mean, max) = brightness(texture, image);
-        references.means.push(mean);
-        references.maxima.push(max);
-    }
+    out.textures = words;
     out.texels = atlas.into_words();
-    out.texture_glsl = glsl(&shapes);
+    out.texture_glsl = glsl(&shapes, &roots);
     Ok(references)
 }
 
-/// Mean brightness over the picture, for the power of a light; and its largest value, for the unit of the sums.
-fn brightness(texture: &scene::ImageTexture, image: &scene::Image) -> (f64, f32) {
-    let read = Reader { image, decode: texture.color_space == scene::ColorSpace::Srgb };
-    let value = |x, y| {
-        let [r, g, b, a] = read.linear(x, y);
-        let rgb = match texture.channel {
-            Channel::Rgb => [r, g, b],
-            Channel::R => [r; 3],
-            Channel::G => [g; 3],
-            Channel::B => [b; 3],
-            Channel::A => [a; 3],
-        };
-        rgb.map(|c| f64::from(if texture.invert { 1.0 - c } else { c }) * f64::from(texture.scale))
-    };
-    let (mut sum, mut max) = (0.0_f64, 0.0_f64);
-    for y in 0..image.height {
-        for x in 0..image.width {
-            let [r, g, b] = value(x, y);
-            sum += (r + g + b) / 3.0;
-            max = max.max(r).max(g).max(b);
+/// The textures that are asked for themselves: all but those that are only ever inputs of others.
+fn direct(scene: &Scene) -> BTreeSet<Handle<Texture>> {
+    let inputs: BTreeSet<_> = scene.textures.iter().flat_map(|(_, _, texture)| texture.inputs()).collect();
+    let mut direct: BTreeSet<_> = scene.textures.iter().map(|(handle, ..)| handle).collect();
+    direct.retain(|handle| !inputs.contains(handle));
+    direct.extend(scene.materials.iter().flat_map(|(_, _, material)| material.textures()));
+    direct.extend(scene.environment.iter().filter_map(|environment| environment.texture()));
+    direct
+}
+
+/// A texture that has its place: shape, word of its record, its constant value if it has one, and its range.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    shape: u32,
+    at: u32,
+    constant: Option<Vec3>,
+    range: Range,
+}
+
+struct Builder<'a> {
+    scene: &'a Scene,
+    atlas: Atlas,
+    places: BTreeMap<Handle<Texture>, Place>,
+    shapes: Vec<Shape>,
+    words: Vec<[u32; 4]>,
+    /// Records by shape and words: equal trees are one.
+    kept: HashMap<(u32, Vec<[u32; 4]>), u32>,
+    done: Vec<Option<Node>>,
+}
+
+/// A record under construction.
+#[derive(Default)]
+struct Words(Vec<[u32; 4]>);
+
+impl Words {
+    fn push<T: crate::layout::Record>(&mut self, record: T) {
+        self.0.extend_from_slice(bytemuck::cast_slice(std::slice::from_ref(&record)));
+    }
+
+    fn push_space(&mut self, space: &PatternSpace) {
+        let rows = space.pattern_from_space.matrix3.transpose();
+        let t = space.pattern_from_space.translation;
+        let row = |row: glam::Vec3A, t: f32| row.extend(t).to_array();
+        self.push(Pattern {
+            row0: row(rows.x_axis, t.x),
+            row1: row(rows.y_axis, t.y),
+            row2: row(rows.z_axis, t.z),
+        });
+    }
+}
+
+impl Builder<'_> {
+    /// The node of a texture. Trees are known to be no deeper than [`Texture::DEEPEST`].
+    fn node(&mut self, handle: Handle<Texture>) -> Node {
+        if let Some(node) = self.done[handle.index()] {
+            return node;
+        }
+        let node = self.build(handle);
+        self.done[handle.index()] = Some(node);
+        node
+    }
+
+    fn build(&mut self, handle: Handle<Texture>) -> Node {
+        let scene = self.scene;
+        match &scene.textures[handle] {
+            Texture::Constant(color) => self.constant(*color),
+            Texture::Image(texture) => {
+                let place = self.places[&handle];
+                let image = &scene.images[texture.image];
+                let mut words = Words::default();
+                words.push(record(texture, image, self.atlas.address(place)));
+                self.keep(Shape::Image(place.format), words, None, brightness(texture, image))
+            }
+            Texture::Checker { even, odd, space } => {
+                let [a, b] = [self.input(even), self.input(odd)];
+                let range = a.range.zip(b.range, f64::min, |a, b| 0.5 * (a + b), f64::max);
+                let mut words = Words::default();
+                words.push_space(space);
+                self.join(Shape::Checker(space.coordinates, [a.input(), b.input()]), words, &[a, b], range)
+            }
+            Texture::Noise(noise) => self.noise(noise),
+            Texture::Mix { a, b, amount } => {
+                let [a, b, t] = [self.input(a), self.input(b), self.number(*amount)];
+                let share = t.range.mean.clamp(0.0, 1.0);
+                let range = a.range.zip(b.range, f64::min, |a, b| (1.0 - share) * a + share * b, f64::max);
+                if let (Some(x), Some(y), Some(t)) = (a.constant, b.constant, t.constant) {
+                    return self.constant(x.lerp(y, mean(t).clamp(0.0, 1.0)));
+                }
+                let shape = Shape::Mix([a.input(), b.input(), t.input()]);
+                self.join(shape, Words::default(), &[a, b, t], range)
+            }
+            Texture::Add { a, b } => {
+                let [a, b] = [self.input(a), self.input(b)];
+                if let (Some(x), Some(y)) = (a.constant, b.constant) {
+                    return self.constant(x + y);
+                }
+                let sum = |a: f64, b: f64| a + b;
+                let range = a.range.zip(b.range, sum, sum, sum);
+                self.join(Shape::Add([a.input(), b.input()]), Words::default(), &[a, b], range)
+            }
+            Texture::Multiply { a, b } => {
+                let [a, b] = [self.input(a), self.input(b)];
+                if let (Some(x), Some(y)) = (a.constant, b.constant) {
+                    return self.constant(x * y);
+                }
+                let ends = [
+                    a.range.min * b.range.min,
+                    a.range.min * b.range.max,
+                    a.range.max * b.range.min,
+                    a.range.max * b.range.max,
+                ];
+                let range = Range {
+                    min: ends.into_iter().fold(f64::INFINITY, f64::min),
+                    mean: a.range.mean * b.range.mean,
+                    max: ends.into_iter().fold(f64::NEG_INFINITY, f64::max),
+                };
+                self.join(Shape::Multiply([a.input(), b.input()]), Words::default(), &[a, b], range)
+            }
+            Texture::Invert { value } => {
+                let a = self.input(value);
+                if let Some(value) = a.constant {
+                    return self.constant(Vec3::ONE - value);
+                }
+                let Range { min, mean, max } = a.range;
+                let range = Range { min: 1.0 - max, mean: 1.0 - mean, max: 1.0 - min };
+                self.join(Shape::Invert([a.input()]), Words::default(), &[a], range)
+            }
         }
     }
-    (sum / (f64::from(image.width) * f64::from(image.height)).max(1.0), max as f32)
-}
 
-fn glsl(shapes: &[Format]) -> String {
-    let mut text = String::from(
-        "// Generated from the textures of the scene.\n#include \"texture/image.glsl\"\n\n\
-         vec4 texture_evaluate(uint reference, TextureContext context)\n{\n    uint at = reference & 0xffffffu;\n    \
-         switch (reference >> 24) {\n",
-    );
-    for (i, format) in shapes.iter().enumerate() {
-        _ = writeln!(text, "    case {i}u: return image_texture(at, {}u, context);", format.number());
+    fn noise(&mut self, noise: &Noise) -> Node {
+        let [low, high] = [self.input(&noise.low), self.input(&noise.high)];
+        let amplitudes = (0..noise.octaves).map(|i| f64::from(noise.gain).powi(i as i32)).sum::<f64>();
+        // The mean of |n| is about 0.2, and of n it is 0
+        let share = if noise.sum == NoiseSum::Turbulence { 0.2 } else { 0.5 };
+        let range = low.range.zip(high.range, f64::min, |a, b| (1.0 - share) * a + share * b, f64::max);
+        let mut words = Words::default();
+        words.push_space(&noise.space);
+        words.push(NoiseRecord {
+            octaves: noise.octaves,
+            gain: noise.gain,
+            lacunarity: noise.lacunarity,
+            scale: (1.0 / amplitudes.max(f64::MIN_POSITIVE)) as f32,
+        });
+        let shape = Shape::Noise(noise.sum, noise.space.coordinates, [low.input(), high.input()]);
+        self.join(shape, words, &[low, high], range)
     }
-    text.push_str("    default: return vec4(0.0);\n    }\n}\n");
-    text
+
+    /// The node of an input.
+    fn input(&mut self, value: &Value<Vec3>) -> Node {
+        match value {
+            Value::Constant(color) => {
+                Node { shape: 0, at: 0, constant: Some(*color), range: range_of(*color) }
+            }
+            Value::Texture(handle) => self.node(*handle),
+        }
+    }
+
+    fn number(&mut self, value: Value<f32>) -> Node {
+        match value {
+            Value::Constant(number) => self.input(&Value::Constant(Vec3::splat(number))),
+            Value::Texture(handle) => self.input(&Value::Texture(handle)),
+        }
+    }
+
+    /// A node that is the same everywhere.
+    fn constant(&mut self, color: Vec3) -> Node {
+        let mut words = Words::default();
+        words.push(TextureInput { value: color.to_array(), at: 0 });
+        self.keep(Shape::Constant, words, Some(color), range_of(color))
+    }
+
+    /// A node with its inputs after its own words.
+    fn join(&mut self, shape: Shape, mut words: Words, inputs: &[Node], range: Range) -> Node {
+        for input in inputs {
+            let value = input.constant.map_or([0.0; 3], |color| color.to_array());
+            words.push(TextureInput { value, at: if input.constant.is_some() { 0 } else { input.at } });
+        }
+        self.keep(shape, words, None, range)
+    }
+
+    fn keep(&mut self, shape: Shape, words: Words, constant: Option<Vec3>, range: Range) -> Node {
+        let known = self.shapes.iter().position(|other| *other == shape);
+        let shape = known.unwrap_or_else(|| {
+            self.shapes.push(shape);
+            self.shapes.len() - 1
+        }) as u32;
+        let next = self.words.len() as u32;
+        let at = *self.kept.entry((shape, words.0)).or_insert_with_key(|(_, words)| {
+            self.words.extend_from_slice(words);
+            next
+        });
+        Node { shape, at, constant, range }
+    }
 }
 
-fn record(texture: &scene::ImageTexture, image: &scene::Image, (base, pitch): (u32, u32)) -> ImageTexture {
-    let uv = texture.uv.matrix();
-    let wrap = |wrap| match wrap {
-        Wrap::Repeat => WRAP_REPEAT,
-        Wrap::Clamp => WRAP_CLAMP,
-        Wrap::Mirror => WRAP_MIRROR,
-        Wrap::Black => WRAP_BLACK,
-    };
-    let channel = match texture.channel {
-        Channel::Rgb => CHANNEL_RGB,
-        Channel::R => CHANNEL_R,
-        Channel::G => CHANNEL_G,
-        Channel::B => CHANNEL_B,
-        Channel::A => CHANNEL_A,
-    };
-    let nearest = if texture.filter == TexelFilter::Nearest { FLAG_NEAREST } else { 0 };
-    let invert = if texture.invert { FLAG_INVERT } else { 0 };
-    ImageTexture {
-        base,
-        pitch,
-        size: [image.width, image.height],
-        uv_column0: uv.matrix2.x_axis.to_array(),
-        uv_column1: uv.matrix2.y_axis.to_array(),
-        uv_offset: uv.translation.to_array(),
-        scale: texture.scale,
-        flags: wrap(texture.wrap[0])
-            | wrap(texture.wrap[1]) << WRAP_V_SHIFT
-            | nearest
-            | invert
-            | channel << CHANNEL_SHIFT,
+impl Node {
+    fn input(&self) -> Input {
+        if self.constant.is_some() { Input::Constant } else { Input::Texture(self.shape) }
+    }
+}
+
+impl Range {
+    fn zip(
+        self,
+        other: Self,
+        min: impl Fn(f64, f64) -> f64,
+        mean: impl Fn(f64, f64) -> f64,
+        max: impl Fn(f64, f64) -> f64,
+    ) -> Self {
+        Self {
+            min: min(self.min, other.min),
+            mean: mean(self.mean, other.mean),
+            max: max(self.max, other.max),
+        }
+    }
+}
+
+fn mean(color: Vec3) -> f32 {
+    color.element_sum() / 3.0
+}
+
+fn range_of(color: Vec3) -> Range {
+    Range {
+        min: f64::from(color.min_element()),
+        mean: f64::from(mean(color)),
+        max: f64::from(color.max_element()),
     }
 }

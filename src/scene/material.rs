@@ -1,6 +1,6 @@
 //! Materials: what a surface does with light.
 
-use super::Value;
+use super::{Handle, Texture, Value};
 use glam::Vec3;
 
 /// How the reflectance of a conductor depends on the angle.
@@ -93,4 +93,22 @@ pub struct Material {
     pub surface: Surface,
     /// What it sends out.
     pub emission: Option<Emission>,
+}
+
+impl Material {
+    /// The textures that drive it.
+    pub fn textures(&self) -> impl Iterator<Item = Handle<Texture>> {
+        let surface = match &self.surface {
+            Surface::Unlit { color } | Surface::Diffuse { color } => [color.texture(), None, None],
+            Surface::Phong { diffuse, specular, exponent } => {
+                [diffuse.texture(), specular.texture(), exponent.texture()]
+            }
+            Surface::Conductor(metal) => {
+                [metal.reflectance.texture(), metal.alpha_u.texture(), metal.alpha_v.texture()]
+            }
+            Surface::Dielectric(glass) => [glass.alpha_u.texture(), glass.alpha_v.texture(), None],
+        };
+        let emission = self.emission.as_ref().and_then(|emission| emission.radiance.texture());
+        surface.into_iter().chain([emission]).flatten()
+    }
 }

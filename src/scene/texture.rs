@@ -1,7 +1,7 @@
 //! Textures: functions of a surface point that give a colour or a number.
 
-use super::Handle;
-use glam::{Affine2, Mat2, Vec2};
+use super::{Handle, Store};
+use glam::{Affine2, Affine3A, Mat2, Vec2, Vec3};
 
 /// A constant, or a texture that gives the value at each point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,11 +22,149 @@ impl<T> Value<T> {
     }
 }
 
-/// A texture.
+/// A texture: a tree, whose leaves are pictures, patterns and constants.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Texture {
     /// A picture, placed by the uv of the surface.
     Image(ImageTexture),
+    /// The same everywhere.
+    Constant(Vec3),
+    /// Unit squares or cubes in turn, the one that begins at the origin even.
+    Checker {
+        /// Where the sum of the whole parts of the coordinates is even.
+        even: Value<Vec3>,
+        /// Where it is odd.
+        odd: Value<Vec3>,
+        /// Where the pattern is.
+        space: PatternSpace,
+    },
+    /// Perlin's improved noise and sums of it.
+    Noise(Noise),
+    /// (1 − amount) · a + amount · b.
+    Mix {
+        /// For an amount of 0.
+        a: Value<Vec3>,
+        /// For an amount of 1.
+        b: Value<Vec3>,
+        /// 0 to 1.
+        amount: Value<f32>,
+    },
+    /// a + b.
+    Add {
+        /// One.
+        a: Value<Vec3>,
+        /// The other.
+        b: Value<Vec3>,
+    },
+    /// a · b, channel by channel.
+    Multiply {
+        /// One.
+        a: Value<Vec3>,
+        /// The other.
+        b: Value<Vec3>,
+    },
+    /// 1 − value.
+    Invert {
+        /// What is inverted.
+        value: Value<Vec3>,
+    },
+}
+
+impl Texture {
+    /// The textures that this one is made of.
+    pub fn inputs(&self) -> impl Iterator<Item = Handle<Texture>> {
+        let inputs = match self {
+            Self::Image(_) | Self::Constant(_) => [None; 3],
+            Self::Checker { even: a, odd: b, .. } | Self::Noise(Noise { low: a, high: b, .. }) => {
+                [a.texture(), b.texture(), None]
+            }
+            Self::Mix { a, b, amount } => [a.texture(), b.texture(), amount.texture()],
+            Self::Add { a, b } | Self::Multiply { a, b } => [a.texture(), b.texture(), None],
+            Self::Invert { value } => [value.texture(), None, None],
+        };
+        inputs.into_iter().flatten()
+    }
+
+    /// Most textures on the way from a texture to a leaf of its tree.
+    pub const DEEPEST: u32 = 64;
+
+    /// What is wrong with a texture that [`Self::without_end`] finds.
+    pub const ENDLESS: &str = "is made of itself, or of more than 64 textures one in the other";
+
+    /// A texture that is made of itself, or of more than [`Self::DEEPEST`] others one in the other.
+    pub fn without_end(textures: &Store<Self>) -> Option<Handle<Self>> {
+        let mut depths: Vec<Option<u32>> = vec![None; textures.len()];
+        for (handle, ..) in textures.iter() {
+            let mut open = vec![handle];
+            while let Some(&at) = open.last() {
+                if open.len() > Self::DEEPEST as usize {
+                    return Some(handle);
+                }
+                // One input after the other: the way down is never longer than the stack
+                let missing = textures[at].inputs().find(|input| depths[input.index()].is_none());
+                if let Some(input) = missing {
+                    open.push(input);
+                    continue;
+                }
+                let deepest = textures[at].inputs().filter_map(|input| depths[input.index()]).max();
+                let depth = deepest.map_or(1, |below| below + 1);
+                if depth > Self::DEEPEST {
+                    return Some(handle);
+                }
+                depths[at.index()] = Some(depth);
+                open.pop();
+            }
+        }
+        None
+    }
+}
+
+/// The coordinates that a pattern is a function of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Coordinates {
+    /// u, v and 0.
+    Uv,
+    /// Position in the object space of the shape or instance. On spheres and disks that is where their radius is 1.
+    Object,
+    /// Position in the world.
+    World,
+}
+
+/// Where a pattern is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PatternSpace {
+    /// What it is a function of.
+    pub coordinates: Coordinates,
+    /// From these to those of the pattern.
+    pub pattern_from_space: Affine3A,
+}
+
+/// How octaves of noise are summed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum NoiseSum {
+    /// n itself.
+    Fbm,
+    /// |n|: creases where the noise changes its sign (Perlin 1985).
+    Turbulence,
+}
+
+/// Σ gainⁱ n(lacunarityⁱ p) / Σ gainⁱ over octaves, with n the improved noise (Perlin 2002), which is within −1 and 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Noise {
+    /// What is summed.
+    pub sum: NoiseSum,
+    /// Number of octaves; 1 is noise alone.
+    pub octaves: u32,
+    /// Factor on the amplitude from one octave to the next.
+    pub gain: f32,
+    /// Factor on the frequency from one octave to the next.
+    pub lacunarity: f32,
+    /// For a sum of −1, or of 0 where absolute values are summed.
+    pub low: Value<Vec3>,
+    /// For a sum of 1.
+    pub high: Value<Vec3>,
+    /// Where the pattern is; a cell of the lattice of the first octave has a side of 1.
+    pub space: PatternSpace,
 }
 
 /// How a value between texels is found.

@@ -5,8 +5,24 @@ use super::{check, check_with_material};
 #[test]
 fn textures_and_materials() {
     check(&[
-        ("[texture.t]\nfile = 'a.png'", "1:1: `kind` is missing in texture `t`; kinds are \"image\""),
-        ("[texture.t]\nkind = 'imag'", "2:8: `kind` is \"imag\", must be \"image\"; did you mean \"image\"?"),
+        (
+            "[texture.t]\nfile = 'a.png'",
+            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"mix\", \"add\", \"multiply\", \"invert\"",
+        ),
+        (
+            "[texture.t]\nkind = 'imag'",
+            "2:8: `kind` is \"imag\", must be one of \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"mix\", \"add\", \"multiply\", \"invert\"; did you mean \"image\"?",
+        ),
+        (
+            "[texture.t]\nkind = 'invert'\nvalue = { texture = 'u' }\n[texture.u]\nkind = 'invert'\nvalue = { texture = 't' }",
+            "1:10: texture `t` is made of itself, or of more than 64 textures one in the other",
+        ),
+        ("[texture.t]\nkind = 'add'\na = 1", "1:1: `b` is missing in add texture `t`"),
+        ("[texture.t]\nkind = 'fbm'\noctaves = 33", "3:11: `octaves` is 33, must be from 1 to 32"),
+        (
+            "[texture.t]\nkind = 'noise'\noctaves = 3",
+            "3:1: unknown key `octaves` in noise texture `t`; it is a key of fbm, turbulence",
+        ),
         ("[texture.t]\nkind = 'image'", "1:1: `file` is missing in image texture `t`"),
         ("[texture.t]\nkind = 'image'\nfile = 'missing.png'", "3:8: there is no file missing.png"),
         ("[texture.t]\nkind = 'image'\nfile = ''", "3:8: `file` is \"\", must be the name of a file"),

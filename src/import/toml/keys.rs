@@ -61,23 +61,34 @@ pub(super) const CAMERA: &[&str] = &[
     "blade_rotation",
 ];
 
+const IMAGE: &[&str] = &[
+    "file",
+    "filter",
+    "wrap",
+    "uv_scale",
+    "uv_rotate",
+    "uv_offset",
+    "color_space",
+    "channel",
+    "scale",
+    "invert",
+];
+const FRACTAL: &[&str] = &["low", "high", "octaves", "gain", "lacunarity", "space", "transform"];
+
 pub(super) const TEXTURE: Kinds = Kinds {
     common: &["kind"],
-    kinds: &[(
-        "image",
-        &[
-            "file",
-            "filter",
-            "wrap",
-            "uv_scale",
-            "uv_rotate",
-            "uv_offset",
-            "color_space",
-            "channel",
-            "scale",
-            "invert",
-        ],
-    )],
+    kinds: &[
+        ("image", IMAGE),
+        ("constant", &["color"]),
+        ("checker", &["even", "odd", "space", "transform"]),
+        ("noise", &["low", "high", "space", "transform"]),
+        ("fbm", FRACTAL),
+        ("turbulence", FRACTAL),
+        ("mix", &["a", "b", "amount"]),
+        ("add", &["a", "b"]),
+        ("multiply", &["a", "b"]),
+        ("invert", &["value"]),
+    ],
 };
 
 pub(super) const MATERIAL: Kinds = Kinds {

@@ -6,7 +6,9 @@ use super::reader::Reader;
 use super::text::{Limits, number, shown};
 use super::view::{Item, View};
 use crate::Result;
-use crate::scene::{Conductor, Dielectric, Emission, Fresnel, Material, Surface, Texture, Value};
+use crate::scene::{
+    Conductor, Dielectric, Emission, Fresnel, ImageTexture, Material, Surface, Texture, Value,
+};
 use glam::Vec3;
 
 /// What a reflectance may be.
@@ -149,13 +151,21 @@ impl Reader<'_> {
             }
             Value::Texture(texture) if scale == 1.0 => Value::Texture(texture),
             Value::Texture(texture) => {
-                let Texture::Image(image) = &self.scene.textures[texture];
-                let mut image = image.clone();
-                image.scale *= scale;
-                if !image.scale.is_finite() {
-                    return Err(item.error("the `scale` of the texture times `emission_scale` is too large"));
-                }
-                Value::Texture(self.scene.textures.add(format!("emission of {name}"), Texture::Image(image)))
+                let scaled = match &self.scene.textures[texture] {
+                    Texture::Image(image) => {
+                        let scale = image.scale * scale;
+                        if !scale.is_finite() {
+                            let message = "the `scale` of the texture times `emission_scale` is too large";
+                            return Err(item.error(message));
+                        }
+                        Texture::Image(ImageTexture { scale, ..image.clone() })
+                    }
+                    _ => Texture::Multiply {
+                        a: Value::Texture(texture),
+                        b: Value::Constant(Vec3::splat(scale)),
+                    },
+                };
+                Value::Texture(self.scene.textures.add(format!("emission of {name}"), scaled))
             }
         };
         Ok(Some(Emission { radiance, two_sided }))

@@ -51,9 +51,7 @@ pub(super) fn read(
     if let Some(entry) = document.get("camera") {
         reader.camera(&entry.node)?;
     }
-    for entry in named(document, "texture") {
-        reader.texture(entry)?;
-    }
+    reader.textures(named(document, "texture"))?;
     for entry in named(document, "material") {
         reader.material(entry)?;
     }

@@ -5,20 +5,82 @@ use super::include::identity;
 use super::keys::TEXTURE;
 use super::reader::Reader;
 use super::text::Limits;
+use super::transform::transform;
 use super::view::{Item, View};
-use crate::Result;
 use crate::scene::{
-    Channel, ColorSpace, Handle, Image, ImageTexture, TexelFilter, Texels, Texture, UvTransform, Wrap,
+    Channel, ColorSpace, Coordinates, Handle, Image, ImageTexture, Noise, NoiseSum, PatternSpace,
+    TexelFilter, Texels, Texture, UvTransform, Value, Wrap,
 };
-use glam::Vec2;
+use crate::{Error, Result};
+use glam::{Affine3A, Vec2, Vec3};
+
+/// Most octaves of noise: the last has 2⁻³¹ of the size of the first.
+const MOST_OCTAVES: u32 = 32;
 
 const WRAPS: [(&str, Wrap); 4] =
     [("repeat", Wrap::Repeat), ("clamp", Wrap::Clamp), ("mirror", Wrap::Mirror), ("black", Wrap::Black)];
 
 impl Reader<'_> {
-    pub fn texture(&mut self, entry: &Entry) -> Result<()> {
+    /// All textures. They may be made of one another in any order, so each has its name before any is read.
+    pub fn textures(&mut self, entries: &[Entry]) -> Result<()> {
+        let mut handles = Vec::with_capacity(entries.len());
+        for entry in entries {
+            let handle = self.scene.textures.add(&entry.key, Texture::Constant(Vec3::ZERO));
+            self.textures.add(&entry.key, entry.spot, handle);
+            handles.push(handle);
+        }
+        for (entry, &handle) in entries.iter().zip(&handles) {
+            self.scene.textures[handle] = self.texture(entry)?;
+        }
+        let Some(endless) = Texture::without_end(&self.scene.textures) else { return Ok(()) };
+        let spot =
+            entries.iter().zip(&handles).find(|(_, handle)| **handle == endless).map(|(entry, _)| entry.spot);
+        let name = super::text::shown(self.scene.textures.name(endless));
+        let message = format!("texture `{name}` {}", Texture::ENDLESS);
+        Err(match spot {
+            Some(spot) => self.sources.error(spot, message),
+            None => Error::scene(message),
+        })
+    }
+
+    fn texture(&mut self, entry: &Entry) -> Result<Texture> {
         let what = format!("texture `{}`", super::text::shown(&entry.key));
-        let (view, _) = View::of_kind(self.sources, &entry.node, what, &TEXTURE)?;
+        let (view, kind) = View::of_kind(self.sources, &entry.node, what, &TEXTURE)?;
+        let color = |key: &str, default: f32| match view.get(key) {
+            Some(item) => self.color(item, Limits::Finite),
+            None => Ok(Value::Constant(Vec3::splat(default))),
+        };
+        let need = |key: &str| self.color(view.need(key)?, Limits::Finite);
+        Ok(match kind {
+            "constant" => Texture::Constant(super::value::color(view.need("color")?, Limits::Finite)?),
+            "checker" => {
+                Texture::Checker { even: color("even", 1.0)?, odd: color("odd", 0.0)?, space: space(&view)? }
+            }
+            "noise" | "fbm" | "turbulence" => Texture::Noise(Noise {
+                sum: if kind == "turbulence" { NoiseSum::Turbulence } else { NoiseSum::Fbm },
+                octaves: if kind == "noise" { 1 } else { view.u32_or("octaves", 6, 1, MOST_OCTAVES)? },
+                gain: view.f32_or("gain", 0.5, Limits::From(0.0, 1.0))?,
+                lacunarity: view.f32_or("lacunarity", 2.0, Limits::From(1.0, 16.0))?,
+                low: color("low", 0.0)?,
+                high: color("high", 1.0)?,
+                space: space(&view)?,
+            }),
+            "mix" => Texture::Mix {
+                a: color("a", 0.0)?,
+                b: color("b", 1.0)?,
+                amount: match view.get("amount") {
+                    Some(item) => self.number(item, Limits::From(0.0, 1.0))?,
+                    None => Value::Constant(0.5),
+                },
+            },
+            "add" => Texture::Add { a: need("a")?, b: need("b")? },
+            "multiply" => Texture::Multiply { a: need("a")?, b: need("b")? },
+            "invert" => Texture::Invert { value: need("value")? },
+            _ => Texture::Image(self.image_texture(&view)?),
+        })
+    }
+
+    fn image_texture(&mut self, view: &View<'_>) -> Result<ImageTexture> {
         let filters = [("bilinear", TexelFilter::Bilinear), ("nearest", TexelFilter::Nearest)];
         let channels = [
             ("rgb", Channel::Rgb),
@@ -50,10 +112,7 @@ impl Reader<'_> {
             Texels::Rgba8(_) | Texels::Rgba16(_) => ColorSpace::Srgb,
             Texels::RgbaF32(_) => ColorSpace::Linear,
         });
-        let texture = ImageTexture { image, filter, wrap, uv, color_space, channel, scale, invert };
-        let handle = self.scene.textures.add(&entry.key, Texture::Image(texture));
-        self.textures.add(&entry.key, entry.spot, handle);
-        Ok(())
+        Ok(ImageTexture { image, filter, wrap, uv, color_space, channel, scale, invert })
     }
 
     /// The picture of a file, loaded once.
@@ -81,4 +140,12 @@ fn wrap(item: Item<'_>) -> Result<[Wrap; 2]> {
 
 fn uv_scale(item: Item<'_>) -> Result<Vec2> {
     if item.is_number() { item.f32(Limits::NotZero).map(Vec2::splat) } else { item.vec2(Limits::NotZero) }
+}
+
+/// Where a pattern is: `transform` moves it in the space that `space` names.
+fn space(view: &View<'_>) -> Result<PatternSpace> {
+    let spaces = [("uv", Coordinates::Uv), ("object", Coordinates::Object), ("world", Coordinates::World)];
+    let coordinates = view.choice_or("space", Coordinates::Object, &spaces)?;
+    let placed = view.get("transform").map_or(Ok(Affine3A::IDENTITY), transform)?;
+    Ok(PatternSpace { coordinates, pattern_from_space: placed.inverse() })
 }

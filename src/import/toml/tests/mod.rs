@@ -136,7 +136,7 @@ fn filters_have_radii_of_their_own() {
 fn textures_take_every_key() {
     let scene = all();
     let textures: BTreeMap<_, _> = scene.textures.iter().map(|(_, name, texture)| (name, texture)).collect();
-    let Texture::Image(wood) = textures["wood"];
+    let Texture::Image(wood) = textures["wood"] else { panic!() };
     assert_eq!(wood.filter, TexelFilter::Nearest);
     assert_eq!(wood.wrap, [Wrap::Mirror, Wrap::Black]);
     assert_eq!(
@@ -145,16 +145,66 @@ fn textures_take_every_key() {
     );
     assert_eq!((wood.color_space, wood.channel), (ColorSpace::Linear, Channel::G));
     assert_eq!((wood.scale, wood.invert), (0.5, true));
-    let Texture::Image(plain) = textures["plain"];
+    let Texture::Image(plain) = textures["plain"] else { panic!() };
     assert_eq!(
         (plain.color_space, plain.wrap, plain.filter),
         (ColorSpace::Srgb, [Wrap::Repeat; 2], TexelFilter::Bilinear)
     );
-    let Texture::Image(sky) = textures["sky"];
+    let Texture::Image(sky) = textures["sky"] else { panic!() };
     assert_eq!(sky.color_space, ColorSpace::Linear);
     assert_eq!(scene.images.len(), 2, "wood and plain name the same file");
-    let Texture::Image(glow) = textures["emission of screen"];
+    let Texture::Image(glow) = textures["emission of screen"] else { panic!() };
     assert_eq!((glow.image, glow.scale), (plain.image, 4.0));
+}
+
+#[test]
+fn texture_trees_take_every_key() {
+    let scene = all();
+    let find = |name: &str| scene.textures.iter().find(|(_, other, _)| *other == name).unwrap();
+    let of = |name: &str| Value::Texture(find(name).0);
+    let grey = |value| Value::Constant(Vec3::splat(value));
+    let object = PatternSpace { coordinates: Coordinates::Object, pattern_from_space: Affine3A::IDENTITY };
+    let halved = PatternSpace {
+        coordinates: Coordinates::World,
+        pattern_from_space: Affine3A::from_scale(Vec3::splat(0.5)),
+    };
+    let veins = Noise {
+        sum: NoiseSum::Turbulence,
+        octaves: 3,
+        gain: 0.75,
+        lacunarity: 3.0,
+        low: grey(0.25),
+        high: Value::Constant(Vec3::new(1.0, 0.5, 0.25)),
+        space: halved,
+    };
+    assert_eq!(*find("veins").2, Texture::Noise(veins));
+    let uv = PatternSpace { coordinates: Coordinates::Uv, ..object };
+    assert_eq!(*find("squares").2, Texture::Checker { even: of("mixed"), odd: grey(0.125), space: uv });
+    let Value::Texture(other) = of("other") else { panic!() };
+    let mixed = Texture::Mix { a: grey(0.5), b: of("veins"), amount: Value::Texture(other) };
+    assert_eq!(*find("mixed").2, mixed);
+    assert_eq!(*find("other").2, Texture::Invert { value: of("sum") });
+    assert_eq!(*find("sum").2, Texture::Add { a: of("product"), b: grey(0.25) });
+    assert_eq!(*find("product").2, Texture::Multiply { a: of("grain"), b: of("paper") });
+    let grain = Noise {
+        sum: NoiseSum::Fbm,
+        octaves: 1,
+        gain: 0.5,
+        lacunarity: 2.0,
+        low: grey(0.0),
+        high: grey(1.0),
+        space: object,
+    };
+    assert_eq!(*find("grain").2, Texture::Noise(grain));
+    assert_eq!(*find("paper").2, Texture::Constant(Vec3::ONE));
+    let lamp = "[texture.f]\nkind = 'noise'\n[material.m]\nkind = 'diffuse'\nemission = { texture = 'f' }\nemission_scale = 2";
+    let (lamp, _) = read(lamp).unwrap();
+    let Some((f, ..)) = lamp.textures.iter().next() else { panic!() };
+    let scaled = lamp.textures.iter().find(|(_, name, _)| *name == "emission of m").unwrap().2;
+    assert_eq!(*scaled, Texture::Multiply { a: Value::Texture(f), b: grey(2.0) });
+    let (fbm, _) = read("[texture.f]\nkind = 'fbm'").unwrap();
+    let Some((_, _, Texture::Noise(fbm))) = fbm.textures.iter().next() else { panic!() };
+    assert_eq!((fbm.octaves, fbm.gain, fbm.lacunarity), (6, 0.5, 2.0));
 }
 
 #[test]
@@ -167,7 +217,7 @@ fn materials_take_every_key() {
     let emission = material("screen").emission.as_ref().unwrap();
     assert_eq!(emission.radiance, Value::Texture(texture("emission of screen")));
     assert!(emission.two_sided);
-    assert_eq!(material("chalk").surface, Surface::Diffuse { color: grey(0.5) });
+    assert_eq!(material("chalk").surface, Surface::Diffuse { color: Value::Texture(texture("squares")) });
     assert_eq!(
         material("chalk").emission.as_ref().unwrap().radiance,
         Value::Constant(Vec3::new(2.0, 4.0, 6.0))

@@ -2,7 +2,10 @@
 //! that are known by hand.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "what fails here fails the test that called it")]
 
+#[path = "../common/mod.rs"]
 mod common;
+
+mod trees;
 
 use common::probe::{Word, as_floats, cache, floats, sources};
 use common::render::{Build, gpu, scene};
@@ -53,16 +56,17 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-fn evaluate(backend: Backend, points: &[Word], threads: u32) -> dapple::Result<Vec<Word>> {
-    let (gpu, scene) = (gpu(), textures());
-    let prepared = prepare::prepare(&scene)?;
+fn evaluate(scene: &Scene, backend: Backend, points: &[Word], threads: u32) -> dapple::Result<Vec<Word>> {
+    let gpu = gpu();
+    let count = points.len() as u32 / 4;
+    let prepared = prepare::prepare(scene)?;
     let mut sources = sources()?;
     sources.set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str())?;
-    let kernel = Compiler::new(sources, cache()).kernel(&key(&scene, &prepared, Stage::Evaluate, backend))?;
+    let kernel = Compiler::new(sources, cache()).kernel(&key(scene, &prepared, Stage::Evaluate, backend))?;
     let layout = gpu.layout(backend)?;
     let pipeline = gpu.pipeline(&layout, &kernel)?;
-    let frame = Frame { point_count: POINTS as u32, threads, ..Frame::default() };
-    let bytes = POINTS as u64 * 16;
+    let frame = Frame { point_count: count, threads, ..Frame::default() };
+    let bytes = u64::from(count) * 16;
     let values = gpu.buffer("values", bytes, Place::Device)?;
     let host = gpu.buffer("values (host)", bytes, Place::Readback)?;
     let bindings = gpu.bindings(
@@ -75,7 +79,7 @@ fn evaluate(backend: Backend, points: &[Word], threads: u32) -> dapple::Result<V
             ("values", &values),
         ],
     )?;
-    let groups = [(POINTS as u32).div_ceil(WORKGROUP).div_ceil(threads), threads];
+    let groups = [count.div_ceil(WORKGROUP).div_ceil(threads), threads];
     gpu.run(&[
         Command::Fill { buffer: &values, bytes, value: u32::MAX },
         Command::Barrier,
@@ -98,7 +102,8 @@ fn textures_have_the_values_of_their_texels() {
         })
         .collect();
     for (backend, threads) in [(Backend::Storage, 1), (Backend::Texel, 2)] {
-        let values = evaluate(backend, &points, threads).unwrap_or_else(|error| panic!("{error}"));
+        let values =
+            evaluate(&textures(), backend, &points, threads).unwrap_or_else(|error| panic!("{error}"));
         for (i, value) in values.into_iter().map(as_floats).enumerate() {
             let (_, u, v, expected) = case(i);
             let off = (0..4).map(|c| (value[c] - expected[c]).abs()).fold(0.0, f32::max);
