@@ -9,9 +9,9 @@ use dapple::prepare::{self, Prepared, Stage};
 use dapple::render;
 use dapple::scene::{
     Aperture, Channel, ColorSpace, Conductor, Coordinates, Dielectric, Emission, Environment, FilterKind,
-    Fresnel, Handle, Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Noise, NoiseSum,
-    PatternSpace, Sampler, Scene, Shape, ShapeKind, Surface, TexelFilter, Texels, Texture, UvTransform,
-    Value, Wrap,
+    Fresnel, Gradient, Handle, Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Noise,
+    NoiseSum, PatternSpace, Sampler, Scene, Shape, ShapeKind, Surface, TexelFilter, Texels, Texture,
+    UvTransform, Value, Wrap,
 };
 use dapple::shader::{BindingClass, Compiler, Reflection, Spirv, reflect, scan, translates_to_wgsl};
 use glam::{Affine3A, Mat3, Vec3};
@@ -158,6 +158,11 @@ fn trees() -> Scene {
         let inverted = Value::Texture(scene.textures.add("inverted", Texture::Invert { value: a }));
         let product = Value::Texture(scene.textures.add("product", Texture::Multiply { a, b: inverted }));
         let sum = scene.textures.add("sum", Texture::Add { a: product, b: noise });
+        let (low, high) = (Value::Texture(sum), constant(0.5));
+        let gradient = Texture::Gradient { shape: Gradient::Cylindrical, low, high, space };
+        let value = Value::Texture(scene.textures.add("gradient", gradient));
+        let stops = vec![(0.0, Vec3::ZERO), (1.0, Vec3::ONE)];
+        let sum = scene.textures.add("ramp", Texture::Ramp { value, stops, smooth: true });
         last = scene.textures.add("mixed", Texture::Mix { a, b: inverted, amount: Value::Texture(sum) });
     }
     let shade = Surface::Diffuse { color: Value::Texture(last) };

@@ -343,6 +343,34 @@ NoiseSum noise_sum_unpack(uvec4 w0)
     return r;
 }
 
+struct Ramp {
+    uint count; // number of stops
+    uint smooth_stops; // 1 when colours between stops follow 3t² − 2t³
+    uvec2 spare; // room
+};
+const uint RAMP_WORDS = 1u;
+Ramp ramp_unpack(uvec4 w0)
+{
+    Ramp r;
+    r.count = w0.x;
+    r.smooth_stops = w0.y;
+    r.spare = uvec2(w0.z, w0.w);
+    return r;
+}
+
+struct RampStop {
+    vec3 color; // its colour
+    float place; // its place
+};
+const uint RAMP_STOP_WORDS = 1u;
+RampStop ramp_stop_unpack(uvec4 w0)
+{
+    RampStop r;
+    r.color = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.place = uintBitsToFloat(w0.w);
+    return r;
+}
+
 struct TextureInput {
     vec3 value; // the constant
     uint at; // word of the record of the texture

@@ -25,6 +25,31 @@ vec4 texture_checker(vec3 p, vec4 even, vec4 odd)
     return sum - floor(sum) > 0.25 ? odd : even;
 }
 
+float gradient_linear(vec3 p) { return p.x; }
+float gradient_cylindrical(vec3 p) { return length(p.xy); }
+float gradient_spherical(vec3 p) { return length(p); }
+
+vec4 texture_gradient(float distance, vec4 low, vec4 high) { return mix(low, high, clamp(distance, 0.0, 1.0)); }
+
+// The colour map at word w. A stop that is passed covers those before it.
+vec4 texture_ramp(uint w, vec4 value)
+{
+    Ramp ramp = ramp_unpack(fetch_textures(w));
+    uint first = w + RAMP_WORDS + TEXTURE_INPUT_WORDS;
+    RampStop last = ramp_stop_unpack(fetch_textures(first));
+    vec3 color = last.color;
+    float x = mean_component(value.rgb);
+    for (uint i = 1u; i < ramp.count; ++i) {
+        RampStop stop = ramp_stop_unpack(fetch_textures(first + i * RAMP_STOP_WORDS));
+        // Two stops at one place are a step
+        float t = clamp((x - last.place) / max(stop.place - last.place, 1e-20), 0.0, 1.0);
+        if (ramp.smooth_stops != 0u) t = t * t * (3.0 - 2.0 * t);
+        color = mix(color, stop.color, t);
+        last = stop;
+    }
+    return vec4(color, 1.0);
+}
+
 vec4 texture_mix(vec4 a, vec4 b, vec4 amount) { return mix(a, b, clamp(mean_component(amount.rgb), 0.0, 1.0)); }
 vec4 texture_add(vec4 a, vec4 b) { return vec4(a.rgb + b.rgb, 1.0); }
 vec4 texture_multiply(vec4 a, vec4 b) { return vec4(a.rgb * b.rgb, a.a * b.a); }

@@ -4,6 +4,9 @@
 //! which are committed; a test compares them. Every record is a whole number of 16-byte words. All but the uniform block are
 //! read as `uvec4` and unpacked with `uintBitsToFloat`, because a float format may flush small integers as denormals.
 
+#[macro_use]
+mod declare;
+
 mod bindings;
 mod constants;
 mod glsl;

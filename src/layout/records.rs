@@ -13,66 +13,6 @@ pub struct RecordInfo {
     pub words: u32,
 }
 
-macro_rules! glsl_type {
-    (f32) => {
-        "float"
-    };
-    (u32) => {
-        "uint"
-    };
-    ([f32; 2]) => {
-        "vec2"
-    };
-    ([f32; 3]) => {
-        "vec3"
-    };
-    ([f32; 4]) => {
-        "vec4"
-    };
-    ([u32; 2]) => {
-        "uvec2"
-    };
-    ([u32; 3]) => {
-        "uvec3"
-    };
-    ([u32; 4]) => {
-        "uvec4"
-    };
-}
-
-/// Declares records: the Rust struct, its place in GLSL, and [`RECORDS`].
-macro_rules! records {
-    ($( $(#[doc = $about:literal])* struct $name:ident { $( #[doc = $doc:literal] $field:ident: $ty:tt, )* } )*) => {
-        $(
-            $(#[doc = $about])*
-            #[repr(C)]
-            #[derive(Debug, Clone, Copy, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-            pub struct $name { $( #[doc = $doc] pub $field: $ty, )* }
-
-            impl Record for $name {
-                const NAME: &'static str = stringify!($name);
-                const FIELDS: &'static [Field] = &[ $( Field {
-                    name: stringify!($field),
-                    doc: $doc.trim_ascii(),
-                    glsl_type: glsl_type!($ty),
-                    offset: (std::mem::offset_of!($name, $field) / 4) as u32,
-                }, )* ];
-                const WORDS: u32 = {
-                    assert!(std::mem::size_of::<$name>() % 16 == 0, "a record is a whole number of words");
-                    (std::mem::size_of::<$name>() / 16) as u32
-                };
-            }
-        )*
-
-        /// Every record, in the order of `layout.glsl`.
-        pub const RECORDS: &[RecordInfo] = &[ $( RecordInfo {
-            name: <$name as Record>::NAME,
-            fields: <$name as Record>::FIELDS,
-            words: if is_uniform(<$name as Record>::NAME) { 0 } else { <$name as Record>::WORDS },
-        }, )* ];
-    };
-}
-
 /// `Frame` is the one record in a uniform block: its fields keep to std140 by their order.
 const fn is_uniform(name: &str) -> bool {
     let (name, frame) = (name.as_bytes(), b"Frame");
@@ -340,6 +280,24 @@ records! {
         lacunarity: f32,
         /// 1 / sum of the amplitudes
         scale: f32,
+    }
+
+    /// A colour map. Its input is the next word, and its stops are those after that.
+    struct Ramp {
+        /// number of stops
+        count: u32,
+        /// 1 when colours between stops follow 3t² − 2t³
+        smooth_stops: u32,
+        /// room
+        spare: [u32; 2],
+    }
+
+    /// A stop of a colour map.
+    struct RampStop {
+        /// its colour
+        color: [f32; 3],
+        /// its place
+        place: f32,
     }
 
     /// What a texture is made of: a constant, or another texture.

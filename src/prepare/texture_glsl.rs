@@ -1,8 +1,8 @@
 //! The generated file `generated/textures.glsl`: a function for each shape of texture tree that a scene has.
 
 use super::atlas::Format;
-use crate::layout::{NoiseSum as NoiseRecord, Pattern, Record as _, TextureInput};
-use crate::scene::{Coordinates, NoiseSum};
+use crate::layout::{NoiseSum as NoiseRecord, Pattern, Ramp, Record as _, TextureInput};
+use crate::scene::{Coordinates, Gradient, NoiseSum};
 use std::fmt::Write as _;
 
 /// What a texture tree is, but for its numbers. Its inputs are shapes with smaller numbers.
@@ -12,6 +12,8 @@ pub(super) enum Shape {
     Constant,
     Checker(Coordinates, [Input; 2]),
     Noise(NoiseSum, Coordinates, [Input; 2]),
+    Gradient(Gradient, Coordinates, [Input; 2]),
+    Ramp([Input; 1]),
     Mix([Input; 3]),
     Add([Input; 2]),
     Multiply([Input; 2]),
@@ -29,7 +31,8 @@ impl Shape {
     /// Words of its record before those of its inputs.
     fn own_words(self) -> u32 {
         match self {
-            Self::Checker(..) => Pattern::WORDS,
+            Self::Checker(..) | Self::Gradient(..) => Pattern::WORDS,
+            Self::Ramp(..) => Ramp::WORDS,
             Self::Noise(..) => Pattern::WORDS + NoiseRecord::WORDS,
             _ => 0,
         }
@@ -56,6 +59,15 @@ impl Shape {
                 let (word, point) = (Pattern::WORDS, point(*space));
                 format!("texture_noise(at + {word}u, {point}, {creased}, {})", inputs(of))
             }
+            Self::Gradient(shape, space, of) => {
+                let distance = match shape {
+                    Gradient::Linear => "gradient_linear",
+                    Gradient::Cylindrical => "gradient_cylindrical",
+                    Gradient::Spherical => "gradient_spherical",
+                };
+                format!("texture_gradient({distance}({}), {})", point(*space), inputs(of))
+            }
+            Self::Ramp(of) => format!("texture_ramp(at, {})", inputs(of)),
             Self::Mix(of) => format!("texture_mix({})", inputs(of)),
             Self::Add(of) => format!("texture_add({})", inputs(of)),
             Self::Multiply(of) => format!("texture_multiply({})", inputs(of)),

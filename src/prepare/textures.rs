@@ -8,7 +8,7 @@ use super::atlas::{Atlas, Place};
 use super::texture_glsl::{Input, Shape, glsl};
 use super::texture_image::{brightness, record};
 use super::{Prepared, noise};
-use crate::layout::{NoiseSum as NoiseRecord, Pattern, TextureInput};
+use crate::layout::{NoiseSum as NoiseRecord, Pattern, Ramp, RampStop, TextureInput};
 use crate::scene::{Handle, Noise, NoiseSum, PatternSpace, Scene, Texture, Value};
 use crate::{Error, Result};
 use glam::Vec3;
@@ -167,6 +167,15 @@ impl Builder<'_> {
                 words.push_space(space);
                 self.join(Shape::Checker(space.coordinates, [a.input(), b.input()]), words, &[a, b], range)
             }
+            Texture::Gradient { shape, low, high, space } => {
+                let [a, b] = [self.input(low), self.input(high)];
+                let range = a.range.zip(b.range, f64::min, |a, b| 0.5 * (a + b), f64::max);
+                let mut words = Words::default();
+                words.push_space(space);
+                let shape = Shape::Gradient(*shape, space.coordinates, [a.input(), b.input()]);
+                self.join(shape, words, &[a, b], range)
+            }
+            Texture::Ramp { value, stops, smooth } => self.ramp(*value, stops, *smooth),
             Texture::Noise(noise) => self.noise(noise),
             Texture::Mix { a, b, amount } => {
                 let [a, b, t] = [self.input(a), self.input(b), self.number(*amount)];
@@ -235,6 +244,23 @@ impl Builder<'_> {
         self.join(shape, words, &[low, high], range)
     }
 
+    fn ramp(&mut self, value: Value<f32>, stops: &[(f32, Vec3)], smooth: bool) -> Node {
+        let input = self.number(value);
+        let ranges = stops.iter().map(|(_, color)| range_of(*color));
+        let whole =
+            ranges.reduce(|a, b| a.zip(b, f64::min, |a, b| a + b, f64::max)).unwrap_or(range_of(Vec3::ZERO));
+        let range = Range { mean: whole.mean / stops.len().max(1) as f64, ..whole };
+        let mut words = Words::default();
+        words.push(Ramp { count: stops.len() as u32, smooth_stops: u32::from(smooth), spare: [0; 2] });
+        words.push(input.record());
+        // A map without stops is black
+        let black = [(0.0, Vec3::ZERO)];
+        for &(place, color) in if stops.is_empty() { &black[..] } else { stops } {
+            words.push(RampStop { color: color.to_array(), place });
+        }
+        self.keep(Shape::Ramp([input.input()]), words, None, range)
+    }
+
     /// The node of an input.
     fn input(&mut self, value: &Value<Vec3>) -> Node {
         match value {
@@ -262,8 +288,7 @@ impl Builder<'_> {
     /// A node with its inputs after its own words.
     fn join(&mut self, shape: Shape, mut words: Words, inputs: &[Node], range: Range) -> Node {
         for input in inputs {
-            let value = input.constant.map_or([0.0; 3], |color| color.to_array());
-            words.push(TextureInput { value, at: if input.constant.is_some() { 0 } else { input.at } });
+            words.push(input.record());
         }
         self.keep(shape, words, None, range)
     }
@@ -284,6 +309,13 @@ impl Builder<'_> {
 }
 
 impl Node {
+    fn record(&self) -> TextureInput {
+        match self.constant {
+            Some(color) => TextureInput { value: color.to_array(), at: 0 },
+            None => TextureInput { value: [0.0; 3], at: self.at },
+        }
+    }
+
     fn input(&self) -> Input {
         if self.constant.is_some() { Input::Constant } else { Input::Texture(self.shape) }
     }

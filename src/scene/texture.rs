@@ -40,6 +40,26 @@ pub enum Texture {
     },
     /// Perlin's improved noise and sums of it.
     Noise(Noise),
+    /// From `low` where the distance is 0 to `high` where it is 1 and beyond.
+    Gradient {
+        /// What the distance is.
+        shape: Gradient,
+        /// For a distance of 0 or less.
+        low: Value<Vec3>,
+        /// For a distance of 1 or more.
+        high: Value<Vec3>,
+        /// Where the pattern is.
+        space: PatternSpace,
+    },
+    /// A colour map.
+    Ramp {
+        /// Where in the map.
+        value: Value<f32>,
+        /// Places and colours, by growing place; one at least.
+        stops: Vec<(f32, Vec3)>,
+        /// Whether colours between stops follow 3t² − 2t³ in place of t.
+        smooth: bool,
+    },
     /// (1 − amount) · a + amount · b.
     Mix {
         /// For an amount of 0.
@@ -78,6 +98,8 @@ impl Texture {
             Self::Checker { even: a, odd: b, .. } | Self::Noise(Noise { low: a, high: b, .. }) => {
                 [a.texture(), b.texture(), None]
             }
+            Self::Gradient { low, high, .. } => [low.texture(), high.texture(), None],
+            Self::Ramp { value, .. } => [value.texture(), None, None],
             Self::Mix { a, b, amount } => [a.texture(), b.texture(), amount.texture()],
             Self::Add { a, b } | Self::Multiply { a, b } => [a.texture(), b.texture(), None],
             Self::Invert { value } => [value.texture(), None, None],
@@ -137,6 +159,17 @@ pub struct PatternSpace {
     pub coordinates: Coordinates,
     /// From these to those of the pattern.
     pub pattern_from_space: Affine3A,
+}
+
+/// The distance of a gradient.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Gradient {
+    /// x.
+    Linear,
+    /// From the z axis.
+    Cylindrical,
+    /// From the origin.
+    Spherical,
 }
 
 /// How octaves of noise are summed.

@@ -5,7 +5,7 @@ use crate::common::random::Random;
 use crate::common::render::scene;
 use dapple::layout::Backend;
 use dapple::prepare;
-use dapple::scene::{Coordinates, Handle, Noise, NoiseSum, PatternSpace, Scene, Texture, Value};
+use dapple::scene::{Coordinates, Gradient, Handle, Noise, NoiseSum, PatternSpace, Scene, Texture, Value};
 use glam::{Affine3A, Vec3};
 
 const WHITE: Value<Vec3> = Value::Constant(Vec3::ONE);
@@ -165,6 +165,54 @@ fn trees_join_their_inputs() {
         },
         &|a| Vec3::splat(a.element_sum() / 3.0),
     );
+}
+
+#[test]
+fn gradients_measure_distances() {
+    let at = [Vec3::new(0.3, 0.4, 0.5), Vec3::new(-1.0, 0.0, 0.25), Vec3::new(2.0, 0.0, 0.0)];
+    for (shape, expected) in [
+        (Gradient::Linear, [0.3, 0.0, 1.0]),
+        (Gradient::Cylindrical, [0.5, 1.0, 1.0]),
+        (Gradient::Spherical, [0.5_f64.sqrt(), 1.0, 1.0]),
+    ] {
+        let space = space(Coordinates::Object);
+        let found = reds(Texture::Gradient { shape, low: BLACK, high: WHITE, space }, &at);
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{shape:?}: {found}, expected {expected}");
+        }
+    }
+}
+
+#[test]
+fn ramps_map_places_to_colors() {
+    // Linear in x; a step at 0.5, where two stops meet
+    let stops =
+        [(0.0, 0.0), (0.25, 1.0), (0.5, 0.5), (0.5, 0.0), (1.0, 4.0)].map(|(x, v)| (x, Vec3::splat(v)));
+    let cases = [
+        (-1.0, 0.0, 0.0),
+        (0.0625, 0.25, 0.156_25),
+        (0.25, 1.0, 1.0),
+        (0.375, 0.75, 0.75),
+        (0.4999, 0.5002, 0.5),
+        (0.5001, 0.0008, 0.0),
+        (0.75, 2.0, 2.0),
+        (7.0, 4.0, 4.0),
+    ];
+    let at: Vec<Vec3> = cases.iter().map(|case| Vec3::new(case.0, 0.0, 0.0)).collect();
+    for smooth in [false, true] {
+        // A gradient from −8 to 8 over as many units, so that no place is cut off
+        let map = Affine3A::from_translation(Vec3::X * -8.0) * Affine3A::from_scale(Vec3::splat(16.0));
+        let (low, high) = (Value::Constant(Vec3::splat(-8.0)), Value::Constant(Vec3::splat(8.0)));
+        let space = PatternSpace { coordinates: Coordinates::Object, pattern_from_space: map.inverse() };
+        let (mut scene, gradient) =
+            scene_of([Texture::Gradient { shape: Gradient::Linear, low, high, space }]);
+        let ramp = Texture::Ramp { value: Value::Texture(gradient), stops: stops.to_vec(), smooth };
+        let ramp = scene.textures.add("ramp", ramp);
+        for (found, (x, linear, eased)) in values(&scene, ramp, &at).into_iter().zip(cases) {
+            let expected = if smooth { eased } else { linear };
+            assert!((found[0] - expected).abs() < 1e-4, "{smooth}, {x}: {}, expected {expected}", found[0]);
+        }
+    }
 }
 
 #[test]

@@ -7,15 +7,27 @@ fn textures_and_materials() {
     check(&[
         (
             "[texture.t]\nfile = 'a.png'",
-            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"mix\", \"add\", \"multiply\", \"invert\"",
+            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"gradient\", \"ramp\", \"mix\", \"add\", \"multiply\", \"invert\"",
         ),
         (
             "[texture.t]\nkind = 'imag'",
-            "2:8: `kind` is \"imag\", must be one of \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"mix\", \"add\", \"multiply\", \"invert\"; did you mean \"image\"?",
+            "2:8: `kind` is \"imag\", must be one of \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"gradient\", \"ramp\", \"mix\", \"add\", \"multiply\", \"invert\"; did you mean \"image\"?",
         ),
         (
             "[texture.t]\nkind = 'invert'\nvalue = { texture = 'u' }\n[texture.u]\nkind = 'invert'\nvalue = { texture = 't' }",
             "1:10: texture `t` is made of itself, or of more than 64 textures one in the other",
+        ),
+        (
+            "[texture.t]\nkind = 'ramp'\nvalue = 0\nstops = [[1, 0], [0, 1]]",
+            "4:19: `stops[1][0]` is less than the place before it",
+        ),
+        (
+            "[texture.t]\nkind = 'ramp'\nvalue = 0\nstops = []",
+            "4:9: `stops` must be from 1 to 64 stops, found an empty list",
+        ),
+        (
+            "[texture.t]\nkind = 'ramp'\nvalue = 0\nstops = [[1]]",
+            "4:10: `stops[0]` must be a place and a colour, found a list of 1",
         ),
         ("[texture.t]\nkind = 'add'\na = 1", "1:1: `b` is missing in add texture `t`"),
         ("[texture.t]\nkind = 'fbm'\noctaves = 33", "3:11: `octaves` is 33, must be from 1 to 32"),

@@ -84,6 +84,8 @@ pub(super) const TEXTURE: Kinds = Kinds {
         ("noise", &["low", "high", "space", "transform"]),
         ("fbm", FRACTAL),
         ("turbulence", FRACTAL),
+        ("gradient", &["low", "high", "shape", "space", "transform"]),
+        ("ramp", &["value", "stops", "smooth"]),
         ("mix", &["a", "b", "amount"]),
         ("add", &["a", "b"]),
         ("multiply", &["a", "b"]),

@@ -8,12 +8,19 @@ use super::text::Limits;
 use super::transform::transform;
 use super::view::{Item, View};
 use crate::scene::{
-    Channel, ColorSpace, Coordinates, Handle, Image, ImageTexture, Noise, NoiseSum, PatternSpace,
+    Channel, ColorSpace, Coordinates, Gradient, Handle, Image, ImageTexture, Noise, NoiseSum, PatternSpace,
     TexelFilter, Texels, Texture, UvTransform, Value, Wrap,
 };
 use crate::{Error, Result};
 use glam::{Affine3A, Vec2, Vec3};
 
+/// Most stops of a colour map: each is looked at for every value.
+const MOST_STOPS: usize = 64;
+const GRADIENTS: [(&str, Gradient); 3] = [
+    ("linear", Gradient::Linear),
+    ("cylindrical", Gradient::Cylindrical),
+    ("spherical", Gradient::Spherical),
+];
 /// Most octaves of noise: the last has 2⁻³¹ of the size of the first.
 const MOST_OCTAVES: u32 = 32;
 
@@ -65,6 +72,17 @@ impl Reader<'_> {
                 high: color("high", 1.0)?,
                 space: space(&view)?,
             }),
+            "gradient" => Texture::Gradient {
+                shape: view.choice_or("shape", Gradient::Linear, &GRADIENTS)?,
+                low: color("low", 0.0)?,
+                high: color("high", 1.0)?,
+                space: space(&view)?,
+            },
+            "ramp" => Texture::Ramp {
+                value: self.number(view.need("value")?, Limits::Finite)?,
+                stops: stops(view.need("stops")?)?,
+                smooth: view.bool_or("smooth", false)?,
+            },
             "mix" => Texture::Mix {
                 a: color("a", 0.0)?,
                 b: color("b", 1.0)?,
@@ -140,6 +158,24 @@ fn wrap(item: Item<'_>) -> Result<[Wrap; 2]> {
 
 fn uv_scale(item: Item<'_>) -> Result<Vec2> {
     if item.is_number() { item.f32(Limits::NotZero).map(Vec2::splat) } else { item.vec2(Limits::NotZero) }
+}
+
+/// Colours of a map: `[[0, "#000000"], [1, [1, 0.5, 0]]]`.
+fn stops(item: Item<'_>) -> Result<Vec<(f32, Vec3)>> {
+    let mut stops: Vec<(f32, Vec3)> = Vec::new();
+    for stop in item.list("a list of stops, such as [[0, 0], [1, [1, 0.5, 0]]]")? {
+        let parts: Vec<_> = stop.list("a place and a colour")?.collect();
+        let [place, color] = parts.as_slice() else { return Err(stop.mismatch("a place and a colour")) };
+        let at = place.f32(Limits::Finite)?;
+        if stops.last().is_some_and(|(before, _)| at < *before) {
+            return Err(place.error(format!("{} is less than the place before it", place.name())));
+        }
+        stops.push((at, super::value::color(*color, Limits::Finite)?));
+    }
+    if stops.is_empty() || stops.len() > MOST_STOPS {
+        return Err(item.mismatch(&format!("from 1 to {MOST_STOPS} stops")));
+    }
+    Ok(stops)
 }
 
 /// Where a pattern is: `transform` moves it in the space that `space` names.

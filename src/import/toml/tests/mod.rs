@@ -185,7 +185,7 @@ fn texture_trees_take_every_key() {
     assert_eq!(*find("mixed").2, mixed);
     assert_eq!(*find("other").2, Texture::Invert { value: of("sum") });
     assert_eq!(*find("sum").2, Texture::Add { a: of("product"), b: grey(0.25) });
-    assert_eq!(*find("product").2, Texture::Multiply { a: of("grain"), b: of("paper") });
+    assert_eq!(*find("product").2, Texture::Multiply { a: of("grain"), b: of("fire") });
     let grain = Noise {
         sum: NoiseSum::Fbm,
         octaves: 1,
@@ -197,6 +197,11 @@ fn texture_trees_take_every_key() {
     };
     assert_eq!(*find("grain").2, Texture::Noise(grain));
     assert_eq!(*find("paper").2, Texture::Constant(Vec3::ONE));
+    let Value::Texture(ball) = of("ball") else { panic!() };
+    let stops = vec![(0.0, Vec3::ZERO), (0.5, Vec3::ONE), (1.0, Vec3::new(1.0, 0.5, 0.0))];
+    assert_eq!(*find("fire").2, Texture::Ramp { value: Value::Texture(ball), stops, smooth: true });
+    let (low, high) = (grey(0.5), grey(1.0));
+    assert_eq!(*find("ball").2, Texture::Gradient { shape: Gradient::Spherical, low, high, space: object });
     let lamp = "[texture.f]\nkind = 'noise'\n[material.m]\nkind = 'diffuse'\nemission = { texture = 'f' }\nemission_scale = 2";
     let (lamp, _) = read(lamp).unwrap();
     let Some((f, ..)) = lamp.textures.iter().next() else { panic!() };
