@@ -30,6 +30,19 @@ fn check_tells_what_is_in_a_scene() {
 }
 
 #[test]
+fn the_scenes_that_come_with_the_program_are_sound() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let scenes: Vec<_> = files.filter(|file| file.extension().is_some_and(|e| e == "toml")).collect();
+    assert!(scenes.len() >= 2, "{}", folder.display());
+    for scene in scenes {
+        let ran = Room::new().run(&format!("check {} --json", scene.display())).code(0);
+        let contents: Value = serde_json::from_str(&ran.out).unwrap();
+        assert_eq!(contents["warnings"], json!([]), "{}", scene.display());
+    }
+}
+
+#[test]
 fn check_needs_no_driver() {
     let room = Room::new();
     let ran = room
