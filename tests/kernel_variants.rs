@@ -9,9 +9,9 @@ use dapple::prepare::{self, Prepared, Stage};
 use dapple::render;
 use dapple::scene::{
     Aperture, Channel, ColorSpace, Conductor, Coordinates, Dielectric, Emission, Environment, FilterKind,
-    Fresnel, Gradient, Handle, Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Noise,
-    NoiseSum, PatternSpace, Sampler, Scene, Shape, ShapeKind, Surface, TexelFilter, Texels, Texture,
-    UvTransform, Value, Wrap,
+    Fresnel, Gradient, Handle, Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Metric,
+    Noise, NoiseSum, PatternSpace, Sampler, Scene, Shape, ShapeKind, Surface, TexelFilter, Texels, Texture,
+    UvTransform, Value, WorleyFeature, Wrap,
 };
 use dapple::shader::{BindingClass, Compiler, Reflection, Spirv, reflect, scan, translates_to_wgsl};
 use glam::{Affine3A, Mat3, Vec3};
@@ -160,7 +160,10 @@ fn trees() -> Scene {
         let sum = scene.textures.add("sum", Texture::Add { a: product, b: noise });
         let (low, high) = (Value::Texture(sum), constant(0.5));
         let gradient = Texture::Gradient { shape: Gradient::Cylindrical, low, high, space };
-        let value = Value::Texture(scene.textures.add("gradient", gradient));
+        let high = Value::Texture(scene.textures.add("gradient", gradient));
+        let (feature, metric) = (WorleyFeature::Difference, Metric::Manhattan);
+        let cells = Texture::Worley { feature, metric, low: constant(0.1), high, space };
+        let value = Value::Texture(scene.textures.add("cells", cells));
         let stops = vec![(0.0, Vec3::ZERO), (1.0, Vec3::ONE)];
         let sum = scene.textures.add("ramp", Texture::Ramp { value, stops, smooth: true });
         last = scene.textures.add("mixed", Texture::Mix { a, b: inverted, amount: Value::Texture(sum) });

@@ -2,6 +2,7 @@
 #include "shared/bindings.glsl"
 #include "base/math.glsl"
 #include "texture/noise.glsl"
+#include "texture/worley.glsl"
 
 // A point in the space of the pattern whose record starts at word w.
 vec3 pattern_point(uint w, vec3 p)

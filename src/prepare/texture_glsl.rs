@@ -2,7 +2,7 @@
 
 use super::atlas::Format;
 use crate::layout::{NoiseSum as NoiseRecord, Pattern, Ramp, Record as _, TextureInput};
-use crate::scene::{Coordinates, Gradient, NoiseSum};
+use crate::scene::{Coordinates, Gradient, Metric, NoiseSum, WorleyFeature};
 use std::fmt::Write as _;
 
 /// What a texture tree is, but for its numbers. Its inputs are shapes with smaller numbers.
@@ -13,6 +13,7 @@ pub(super) enum Shape {
     Checker(Coordinates, [Input; 2]),
     Noise(NoiseSum, Coordinates, [Input; 2]),
     Gradient(Gradient, Coordinates, [Input; 2]),
+    Worley(WorleyFeature, Metric, Coordinates, [Input; 2]),
     Ramp([Input; 1]),
     Mix([Input; 3]),
     Add([Input; 2]),
@@ -31,7 +32,7 @@ impl Shape {
     /// Words of its record before those of its inputs.
     fn own_words(self) -> u32 {
         match self {
-            Self::Checker(..) | Self::Gradient(..) => Pattern::WORDS,
+            Self::Checker(..) | Self::Gradient(..) | Self::Worley(..) => Pattern::WORDS,
             Self::Ramp(..) => Ramp::WORDS,
             Self::Noise(..) => Pattern::WORDS + NoiseRecord::WORDS,
             _ => 0,
@@ -66,6 +67,19 @@ impl Shape {
                     Gradient::Spherical => "gradient_spherical",
                 };
                 format!("texture_gradient({distance}({}), {})", point(*space), inputs(of))
+            }
+            Self::Worley(feature, metric, space, of) => {
+                let feature = match feature {
+                    WorleyFeature::F1 => "worley_f1",
+                    WorleyFeature::F2 => "worley_f2",
+                    WorleyFeature::Difference => "worley_difference",
+                };
+                let cells = match metric {
+                    Metric::Euclidean => "worley_euclidean",
+                    Metric::Manhattan => "worley_manhattan",
+                    Metric::Chebyshev => "worley_chebyshev",
+                };
+                format!("texture_gradient({feature}({cells}({})), {})", point(*space), inputs(of))
             }
             Self::Ramp(of) => format!("texture_ramp(at, {})", inputs(of)),
             Self::Mix(of) => format!("texture_mix({})", inputs(of)),

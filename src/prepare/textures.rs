@@ -175,6 +175,14 @@ impl Builder<'_> {
                 let shape = Shape::Gradient(*shape, space.coordinates, [a.input(), b.input()]);
                 self.join(shape, words, &[a, b], range)
             }
+            Texture::Worley { feature, metric, low, high, space } => {
+                let [a, b] = [self.input(low), self.input(high)];
+                let range = a.range.zip(b.range, f64::min, |a, b| 0.5 * (a + b), f64::max);
+                let mut words = Words::default();
+                words.push_space(space);
+                let inputs = [a.input(), b.input()];
+                self.join(Shape::Worley(*feature, *metric, space.coordinates, inputs), words, &[a, b], range)
+            }
             Texture::Ramp { value, stops, smooth } => self.ramp(*value, stops, *smooth),
             Texture::Noise(noise) => self.noise(noise),
             Texture::Mix { a, b, amount } => {

@@ -18,8 +18,8 @@ pub use light::{Environment, Light};
 pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Surface};
 pub use store::{Handle, Store};
 pub use texture::{
-    Channel, ColorSpace, Coordinates, Gradient, Image, ImageTexture, Noise, NoiseSum, PatternSpace,
-    TexelFilter, Texels, Texture, UvTransform, Value, Wrap,
+    Channel, ColorSpace, Coordinates, Gradient, Image, ImageTexture, Metric, Noise, NoiseSum, PatternSpace,
+    TexelFilter, Texels, Texture, UvTransform, Value, WorleyFeature, Wrap,
 };
 
 /// A whole scene. The handles in it index the [`Store`]s of the same scene.

@@ -51,6 +51,19 @@ pub enum Texture {
         /// Where the pattern is.
         space: PatternSpace,
     },
+    /// Distances to points that are scattered one in each unit cube (Worley 1996), cut off at 1.
+    Worley {
+        /// Which distance.
+        feature: WorleyFeature,
+        /// How a distance is measured.
+        metric: Metric,
+        /// For a distance of 0.
+        low: Value<Vec3>,
+        /// For a distance of 1 or more.
+        high: Value<Vec3>,
+        /// Where the pattern is.
+        space: PatternSpace,
+    },
     /// A colour map.
     Ramp {
         /// Where in the map.
@@ -98,7 +111,9 @@ impl Texture {
             Self::Checker { even: a, odd: b, .. } | Self::Noise(Noise { low: a, high: b, .. }) => {
                 [a.texture(), b.texture(), None]
             }
-            Self::Gradient { low, high, .. } => [low.texture(), high.texture(), None],
+            Self::Gradient { low, high, .. } | Self::Worley { low, high, .. } => {
+                [low.texture(), high.texture(), None]
+            }
             Self::Ramp { value, .. } => [value.texture(), None, None],
             Self::Mix { a, b, amount } => [a.texture(), b.texture(), amount.texture()],
             Self::Add { a, b } | Self::Multiply { a, b } => [a.texture(), b.texture(), None],
@@ -159,6 +174,28 @@ pub struct PatternSpace {
     pub coordinates: Coordinates,
     /// From these to those of the pattern.
     pub pattern_from_space: Affine3A,
+}
+
+/// A distance to scattered points, of those in the 27 cells around.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum WorleyFeature {
+    /// To the nearest.
+    F1,
+    /// To the one after the nearest.
+    F2,
+    /// The difference of both: 0 where two cells meet.
+    Difference,
+}
+
+/// How a distance is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Metric {
+    /// √(x² + y² + z²).
+    Euclidean,
+    /// |x| + |y| + |z|.
+    Manhattan,
+    /// The largest of |x|, |y| and |z|.
+    Chebyshev,
 }
 
 /// The distance of a gradient.

@@ -5,7 +5,10 @@ use crate::common::random::Random;
 use crate::common::render::scene;
 use dapple::layout::Backend;
 use dapple::prepare;
-use dapple::scene::{Coordinates, Gradient, Handle, Noise, NoiseSum, PatternSpace, Scene, Texture, Value};
+use dapple::scene::{
+    Coordinates, Gradient, Handle, Metric, Noise, NoiseSum, PatternSpace, Scene, Texture, Value,
+    WorleyFeature,
+};
 use glam::{Affine3A, Vec3};
 
 const WHITE: Value<Vec3> = Value::Constant(Vec3::ONE);
@@ -179,6 +182,53 @@ fn gradients_measure_distances() {
         let found = reds(Texture::Gradient { shape, low: BLACK, high: WHITE, space }, &at);
         for (found, expected) in found.into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-6, "{shape:?}: {found}, expected {expected}");
+        }
+    }
+}
+
+/// `pcg3d` of `texture/worley.glsl`.
+fn pcg3d(v: [u32; 3]) -> [u32; 3] {
+    let mut v = v.map(|x| x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
+    let mix = |v: &mut [u32; 3]| {
+        for (to, a, b) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
+            v[to] = v[to].wrapping_add(v[a].wrapping_mul(v[b]));
+        }
+    };
+    mix(&mut v);
+    v = v.map(|x| x ^ x >> 16);
+    mix(&mut v);
+    v
+}
+
+#[test]
+fn worley_finds_the_nearest_points() {
+    let at = points(400, 6.0);
+    for metric in [Metric::Euclidean, Metric::Manhattan, Metric::Chebyshev] {
+        let measure = |d: [f64; 3]| match metric {
+            Metric::Euclidean => d.iter().map(|x| x * x).sum::<f64>().sqrt(),
+            Metric::Manhattan => d.iter().map(|x| x.abs()).sum(),
+            Metric::Chebyshev => d.iter().fold(0.0, |most: f64, x| most.max(x.abs())),
+        };
+        let of = |feature| {
+            let space = space(Coordinates::Object);
+            reds(Texture::Worley { feature, metric, low: BLACK, high: WHITE, space }, &at)
+        };
+        let found = [WorleyFeature::F1, WorleyFeature::F2, WorleyFeature::Difference].map(of);
+        for (i, p) in at.iter().enumerate() {
+            let mut distances = Vec::new();
+            for (x, y, z) in (-1..2).flat_map(|x| (-1..2).flat_map(move |y| (-1..2).map(move |z| (x, y, z))))
+            {
+                let cell = [p.x.floor() as i32 + x, p.y.floor() as i32 + y, p.z.floor() as i32 + z];
+                let random = pcg3d(cell.map(|c| c as u32)).map(|bits| f64::from(bits >> 8) / 16_777_216.0);
+                let to = |k: usize| f64::from(cell[k]) + random[k] - f64::from(p[k]);
+                distances.push(measure([to(0), to(1), to(2)]));
+            }
+            distances.sort_by(f64::total_cmp);
+            let expected = [distances[0], distances[1], distances[1] - distances[0]];
+            for (found, expected) in found.iter().zip(expected) {
+                let off = (found[i] - expected.min(1.0)).abs();
+                assert!(off < 1e-5, "{metric:?} at {p}: {}, expected {expected}", found[i]);
+            }
         }
     }
 }

@@ -7,11 +7,11 @@ fn textures_and_materials() {
     check(&[
         (
             "[texture.t]\nfile = 'a.png'",
-            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"gradient\", \"ramp\", \"mix\", \"add\", \"multiply\", \"invert\"",
+            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"gradient\", \"worley\", \"ramp\", \"mix\", \"add\", \"multiply\", \"invert\"",
         ),
         (
             "[texture.t]\nkind = 'imag'",
-            "2:8: `kind` is \"imag\", must be one of \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"gradient\", \"ramp\", \"mix\", \"add\", \"multiply\", \"invert\"; did you mean \"image\"?",
+            "2:8: `kind` is \"imag\", must be one of \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"gradient\", \"worley\", \"ramp\", \"mix\", \"add\", \"multiply\", \"invert\"; did you mean \"image\"?",
         ),
         (
             "[texture.t]\nkind = 'invert'\nvalue = { texture = 'u' }\n[texture.u]\nkind = 'invert'\nvalue = { texture = 't' }",

@@ -85,6 +85,7 @@ pub(super) const TEXTURE: Kinds = Kinds {
         ("fbm", FRACTAL),
         ("turbulence", FRACTAL),
         ("gradient", &["low", "high", "shape", "space", "transform"]),
+        ("worley", &["low", "high", "feature", "metric", "space", "transform"]),
         ("ramp", &["value", "stops", "smooth"]),
         ("mix", &["a", "b", "amount"]),
         ("add", &["a", "b"]),

@@ -8,8 +8,8 @@ use super::text::Limits;
 use super::transform::transform;
 use super::view::{Item, View};
 use crate::scene::{
-    Channel, ColorSpace, Coordinates, Gradient, Handle, Image, ImageTexture, Noise, NoiseSum, PatternSpace,
-    TexelFilter, Texels, Texture, UvTransform, Value, Wrap,
+    Channel, ColorSpace, Coordinates, Gradient, Handle, Image, ImageTexture, Metric, Noise, NoiseSum,
+    PatternSpace, TexelFilter, Texels, Texture, UvTransform, Value, WorleyFeature, Wrap,
 };
 use crate::{Error, Result};
 use glam::{Affine3A, Vec2, Vec3};
@@ -21,6 +21,10 @@ const GRADIENTS: [(&str, Gradient); 3] = [
     ("cylindrical", Gradient::Cylindrical),
     ("spherical", Gradient::Spherical),
 ];
+const FEATURES: [(&str, WorleyFeature); 3] =
+    [("f1", WorleyFeature::F1), ("f2", WorleyFeature::F2), ("f2_minus_f1", WorleyFeature::Difference)];
+const METRICS: [(&str, Metric); 3] =
+    [("euclidean", Metric::Euclidean), ("manhattan", Metric::Manhattan), ("chebyshev", Metric::Chebyshev)];
 /// Most octaves of noise: the last has 2⁻³¹ of the size of the first.
 const MOST_OCTAVES: u32 = 32;
 
@@ -74,6 +78,13 @@ impl Reader<'_> {
             }),
             "gradient" => Texture::Gradient {
                 shape: view.choice_or("shape", Gradient::Linear, &GRADIENTS)?,
+                low: color("low", 0.0)?,
+                high: color("high", 1.0)?,
+                space: space(&view)?,
+            },
+            "worley" => Texture::Worley {
+                feature: view.choice_or("feature", WorleyFeature::F1, &FEATURES)?,
+                metric: view.choice_or("metric", Metric::Euclidean, &METRICS)?,
                 low: color("low", 0.0)?,
                 high: color("high", 1.0)?,
                 space: space(&view)?,

@@ -200,7 +200,15 @@ fn texture_trees_take_every_key() {
     let Value::Texture(ball) = of("ball") else { panic!() };
     let stops = vec![(0.0, Vec3::ZERO), (0.5, Vec3::ONE), (1.0, Vec3::new(1.0, 0.5, 0.0))];
     assert_eq!(*find("fire").2, Texture::Ramp { value: Value::Texture(ball), stops, smooth: true });
-    let (low, high) = (grey(0.5), grey(1.0));
+    let (low, high) = (of("cells"), grey(1.0));
+    let cells = Texture::Worley {
+        feature: WorleyFeature::Difference,
+        metric: Metric::Chebyshev,
+        low: grey(0.0),
+        high,
+        space: object,
+    };
+    assert_eq!(*find("cells").2, cells);
     assert_eq!(*find("ball").2, Texture::Gradient { shape: Gradient::Spherical, low, high, space: object });
     let lamp = "[texture.f]\nkind = 'noise'\n[material.m]\nkind = 'diffuse'\nemission = { texture = 'f' }\nemission_scale = 2";
     let (lamp, _) = read(lamp).unwrap();
