@@ -3,18 +3,18 @@
 //! What is placed once goes into one tree in world space (the soup); a mesh that is placed several times gets a tree of
 //! its own. A tree over instances stands above them, unless the soup is all there is.
 
-use super::Prepared;
 use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
 use super::triangles::{mirrors, push_triangles, quad_mesh};
 use super::wide::Leaves;
+use super::{Prepared, rows};
 use crate::layout::{
     INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
     LEAF_INSTANCE, NONE, Triangle,
 };
 use crate::scene::{Mesh, Scene, Shape, ShapeKind};
 use crate::{Error, Result};
-use glam::{Affine3A, DAffine3, Mat3A, Vec3};
+use glam::{Affine3A, Mat3A, Vec3};
 
 /// Most triangles a leaf holds.
 const TRIANGLES_A_LEAF: u32 = 4;
@@ -221,11 +221,6 @@ fn check_stack(entries: u32) -> Result<()> {
 
 impl Prepared {
     fn push_instance(&mut self, kind: u32, world_from_object: Affine3A, material: u32) -> u32 {
-        let rows = |m: &DAffine3| {
-            let (linear, t) = (m.matrix3.transpose(), m.translation);
-            [linear.x_axis.extend(t.x), linear.y_axis.extend(t.y), linear.z_axis.extend(t.z)]
-                .map(|r| r.as_vec4().to_array())
-        };
         // In f64: an inverse has products of three lengths on its way
         let exact = world_from_object.as_daffine3();
         let (world, object) = (rows(&exact), rows(&exact.inverse()));

@@ -168,3 +168,10 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
     units::choose(scene, &textures, &receivers, lamps, &mut out);
     Ok(out)
 }
+
+/// The rows of a map as kernels read them.
+fn rows(map: &glam::DAffine3) -> [[f32; 4]; 3] {
+    let (linear, t) = (map.matrix3.transpose(), map.translation);
+    [linear.x_axis.extend(t.x), linear.y_axis.extend(t.y), linear.z_axis.extend(t.z)]
+        .map(|row| row.as_vec4().to_array())
+}

@@ -7,7 +7,7 @@
 use super::atlas::{Atlas, Place};
 use super::texture_glsl::{Input, Shape, glsl};
 use super::texture_image::{brightness, record};
-use super::{Prepared, noise};
+use super::{Prepared, noise, rows};
 use crate::layout::{NoiseSum as NoiseRecord, Pattern, Ramp, RampStop, TextureInput};
 use crate::scene::{Handle, Noise, NoiseSum, PatternSpace, Scene, Texture, Value};
 use crate::{Error, Result};
@@ -48,8 +48,7 @@ impl References {
 /// Fills `textures`, `texels` and `texture_glsl`.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
     if let Some(handle) = Texture::without_end(&scene.textures) {
-        let name = scene.textures.name(handle);
-        return Err(Error::scene(format!("texture `{name}` {}", Texture::ENDLESS)));
+        return Err(Error::scene(Texture::endless(scene.textures.name(handle))));
     }
     let mut atlas = Atlas::default();
     let mut places = BTreeMap::new();
@@ -125,17 +124,6 @@ impl Words {
     fn push<T: crate::layout::Record>(&mut self, record: T) {
         self.0.extend_from_slice(bytemuck::cast_slice(std::slice::from_ref(&record)));
     }
-
-    fn push_space(&mut self, space: &PatternSpace) {
-        let rows = space.pattern_from_space.matrix3.transpose();
-        let t = space.pattern_from_space.translation;
-        let row = |row: glam::Vec3A, t: f32| row.extend(t).to_array();
-        self.push(Pattern {
-            row0: row(rows.x_axis, t.x),
-            row1: row(rows.y_axis, t.y),
-            row2: row(rows.z_axis, t.z),
-        });
-    }
 }
 
 impl Builder<'_> {
@@ -161,39 +149,27 @@ impl Builder<'_> {
                 self.keep(Shape::Image(place.format), words, None, brightness(texture, image))
             }
             Texture::Checker { even, odd, space } => {
-                let [a, b] = [self.input(even), self.input(odd)];
-                let range = a.range.zip(b.range, f64::min, |a, b| 0.5 * (a + b), f64::max);
-                let mut words = Words::default();
-                words.push_space(space);
-                self.join(Shape::Checker(space.coordinates, [a.input(), b.input()]), words, &[a, b], range)
+                let shape = |inputs| Shape::Checker(space.coordinates, inputs);
+                self.pattern(space, [even, odd], 0.5, Words::default(), shape)
             }
             Texture::Gradient { shape, low, high, space } => {
-                let [a, b] = [self.input(low), self.input(high)];
-                let range = a.range.zip(b.range, f64::min, |a, b| 0.5 * (a + b), f64::max);
-                let mut words = Words::default();
-                words.push_space(space);
-                let shape = Shape::Gradient(*shape, space.coordinates, [a.input(), b.input()]);
-                self.join(shape, words, &[a, b], range)
+                let shape = |inputs| Shape::Gradient(*shape, space.coordinates, inputs);
+                self.pattern(space, [low, high], 0.5, Words::default(), shape)
             }
             Texture::Worley { feature, metric, low, high, space } => {
-                let [a, b] = [self.input(low), self.input(high)];
-                let range = a.range.zip(b.range, f64::min, |a, b| 0.5 * (a + b), f64::max);
-                let mut words = Words::default();
-                words.push_space(space);
-                let inputs = [a.input(), b.input()];
-                self.join(Shape::Worley(*feature, *metric, space.coordinates, inputs), words, &[a, b], range)
+                let shape = |inputs| Shape::Worley(*feature, *metric, space.coordinates, inputs);
+                self.pattern(space, [low, high], 0.5, Words::default(), shape)
             }
             Texture::Ramp { value, stops, smooth } => self.ramp(*value, stops, *smooth),
             Texture::Noise(noise) => self.noise(noise),
             Texture::Mix { a, b, amount } => {
                 let [a, b, t] = [self.input(a), self.input(b), self.number(*amount)];
                 let share = t.range.mean.clamp(0.0, 1.0);
-                let range = a.range.zip(b.range, f64::min, |a, b| (1.0 - share) * a + share * b, f64::max);
                 if let (Some(x), Some(y), Some(t)) = (a.constant, b.constant, t.constant) {
                     return self.constant(x.lerp(y, mean(t).clamp(0.0, 1.0)));
                 }
                 let shape = Shape::Mix([a.input(), b.input(), t.input()]);
-                self.join(shape, Words::default(), &[a, b, t], range)
+                self.join(shape, Words::default(), &[a, b, t], a.range.mixed(b.range, share))
             }
             Texture::Add { a, b } => {
                 let [a, b] = [self.input(a), self.input(b)];
@@ -235,21 +211,36 @@ impl Builder<'_> {
     }
 
     fn noise(&mut self, noise: &Noise) -> Node {
-        let [low, high] = [self.input(&noise.low), self.input(&noise.high)];
         let amplitudes = (0..noise.octaves).map(|i| f64::from(noise.gain).powi(i as i32)).sum::<f64>();
-        // The mean of |n| is about 0.2, and of n it is 0
-        let share = if noise.sum == NoiseSum::Turbulence { 0.2 } else { 0.5 };
-        let range = low.range.zip(high.range, f64::min, |a, b| (1.0 - share) * a + share * b, f64::max);
-        let mut words = Words::default();
-        words.push_space(&noise.space);
-        words.push(NoiseRecord {
+        let mut own = Words::default();
+        own.push(NoiseRecord {
             octaves: noise.octaves,
             gain: noise.gain,
             lacunarity: noise.lacunarity,
             scale: (1.0 / amplitudes.max(f64::MIN_POSITIVE)) as f32,
         });
-        let shape = Shape::Noise(noise.sum, noise.space.coordinates, [low.input(), high.input()]);
-        self.join(shape, words, &[low, high], range)
+        // The mean of |n| is about 0.2, and of n it is 0
+        let share = if noise.sum == NoiseSum::Turbulence { 0.2 } else { 0.5 };
+        let shape = |inputs| Shape::Noise(noise.sum, noise.space.coordinates, inputs);
+        self.pattern(&noise.space, [&noise.low, &noise.high], share, own, shape)
+    }
+
+    /// A pattern in space between two inputs, of which the second has `share` on average. `own` are the words of its record
+    /// after those of its place.
+    fn pattern(
+        &mut self,
+        space: &PatternSpace,
+        inputs: [&Value<Vec3>; 2],
+        share: f64,
+        own: Words,
+        shape: impl FnOnce([Input; 2]) -> Shape,
+    ) -> Node {
+        let [a, b] = inputs.map(|input| self.input(input));
+        let [row0, row1, row2] = rows(&space.pattern_from_space.as_daffine3());
+        let mut words = Words::default();
+        words.push(Pattern { row0, row1, row2 });
+        words.0.extend(own.0);
+        self.join(shape([a.input(), b.input()]), words, &[a, b], a.range.mixed(b.range, share))
     }
 
     fn ramp(&mut self, value: Value<f32>, stops: &[(f32, Vec3)], smooth: bool) -> Node {
@@ -330,6 +321,11 @@ impl Node {
 }
 
 impl Range {
+    /// Of values between those of two textures, of which the second has `share` on average.
+    fn mixed(self, other: Self, share: f64) -> Self {
+        self.zip(other, f64::min, |a, b| (1.0 - share) * a + share * b, f64::max)
+    }
+
     fn zip(
         self,
         other: Self,

@@ -126,7 +126,10 @@ impl Texture {
     pub const DEEPEST: u32 = 64;
 
     /// What is wrong with a texture that [`Self::without_end`] finds.
-    pub const ENDLESS: &str = "is made of itself, or of more than 64 textures one in the other";
+    pub fn endless(name: &str) -> String {
+        let most = Self::DEEPEST;
+        format!("texture `{name}` is made of itself, or of more than {most} textures one in the other")
+    }
 
     /// A texture that is made of itself, or of more than [`Self::DEEPEST`] others one in the other.
     pub fn without_end(textures: &Store<Self>) -> Option<Handle<Self>> {

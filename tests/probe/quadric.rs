@@ -5,16 +5,23 @@ use crate::common::random::Random;
 use crate::common::twins::geometry;
 use crate::common::twins::math::{length, towards};
 
-#[test]
-fn spheres_are_hit_where_doubles_say() {
-    let glsl = "#include \"geometry/quadric.glsl\"
-        void probe(uint i) {
+/// Runs a test of a ray: its origin; its direction and the end of its range.
+fn hits(test: &str) -> String {
+    format!(
+        "#include \"geometry/quadric.glsl\"
+        void probe(uint i) {{
             vec3 o = uintBitsToFloat(fetch_points(2u * i).xyz);
             vec4 d = uintBitsToFloat(fetch_points(2u * i + 1u));
             float t;
-            bool hit = sphere_hit(o, d.xyz, d.w, t);
+            bool hit = {test}(o, d.xyz, d.w, t);
             store_values(i, uvec4(hit ? 1u : 0u, floatBitsToUint(t), 0u, 0u));
-        }";
+        }}"
+    )
+}
+
+#[test]
+fn spheres_are_hit_where_doubles_say() {
+    let glsl = hits("sphere_hit");
     let mut random = Random(6);
     let mut inputs: Vec<Word> = Vec::new();
     for i in 0..100_000 {
@@ -39,7 +46,7 @@ fn spheres_are_hit_where_doubles_say() {
         inputs.extend([vector(o), floats(d[0], d[1], d[2], 3e38)]);
     }
     let count = inputs.len() / 2;
-    let values = Probe::new().both(glsl, &inputs, count, count);
+    let values = Probe::new().both(&glsl, &inputs, count, count);
     for ((o, _, t), value) in known.iter().zip(&values[count - known.len()..]) {
         assert_eq!((value[0] == 1).then(|| as_floats(*value)[1]), *t, "from {o:?}");
     }
@@ -71,14 +78,7 @@ fn spheres_are_hit_where_doubles_say() {
 
 #[test]
 fn disks_are_hit_where_doubles_say() {
-    let glsl = "#include \"geometry/quadric.glsl\"
-        void probe(uint i) {
-            vec3 o = uintBitsToFloat(fetch_points(2u * i).xyz);
-            vec4 d = uintBitsToFloat(fetch_points(2u * i + 1u));
-            float t;
-            bool hit = disk_hit(o, d.xyz, d.w, t);
-            store_values(i, uvec4(hit ? 1u : 0u, floatBitsToUint(t), 0u, 0u));
-        }";
+    let glsl = hits("disk_hit");
     let mut random = Random(7);
     let mut inputs: Vec<Word> = Vec::new();
     for i in 0..100_000 {
@@ -100,7 +100,7 @@ fn disks_are_hit_where_doubles_say() {
         inputs.extend([vector(o), floats(d[0], d[1], d[2], 3e38)]);
     }
     let count = inputs.len() / 2;
-    let values = Probe::new().both(glsl, &inputs, count, count);
+    let values = Probe::new().both(&glsl, &inputs, count, count);
     assert!(values[count - never.len()..].iter().all(|v| v[0] == 0));
     let mut seen = [0; 2];
     for (input, value) in inputs.chunks_exact(2).zip(&values).take(count - never.len()) {

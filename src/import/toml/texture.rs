@@ -46,8 +46,7 @@ impl Reader<'_> {
         let Some(endless) = Texture::without_end(&self.scene.textures) else { return Ok(()) };
         let spot =
             entries.iter().zip(&handles).find(|(_, handle)| **handle == endless).map(|(entry, _)| entry.spot);
-        let name = super::text::shown(self.scene.textures.name(endless));
-        let message = format!("texture `{name}` {}", Texture::ENDLESS);
+        let message = Texture::endless(&super::text::shown(self.scene.textures.name(endless)));
         Err(match spot {
             Some(spot) => self.sources.error(spot, message),
             None => Error::scene(message),
