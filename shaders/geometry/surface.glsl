@@ -10,8 +10,11 @@ struct Surface {
     vec3 object_position; // object space of its instance
     vec3 geometric;       // unit normal of the geometry, outward
     vec3 normal;          // unit shading normal, on the side of `geometric`
-    vec3 dpdu;            // ∂p/∂u in world space, not of unit length
+    vec3 dpdu;            // ∂p/∂u in world space, not of unit length; 0 where u has no direction
+    vec3 dpdv;            // ∂p/∂v
     vec2 uv;
+    vec2 uv_rate;         // what u and v grow by in a unit of length of the world
+    float object_rate;    // units of object space in a unit of length of the world
     uint material;
     uint light;           // its light, or NONE
 };
@@ -63,18 +66,24 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec2 dv = uv2 - uv0;
     s.uv = uv0 + bary.x * du + bary.y * dv;
     float determinant = du.x * dv.y - du.y * dv.x;
-    s.dpdu = abs(determinant) < 1e-9 ? vec3(0.0) : (dv.y * ab - du.y * ac) / determinant;
+    bool oriented = abs(determinant) >= 1e-9;
+    s.dpdu = oriented ? (dv.y * ab - du.y * ac) / determinant : vec3(0.0);
+    s.dpdv = oriented ? (du.x * ac - dv.x * ab) / determinant : vec3(0.0);
     if (to_world) {
         s.object_position = p;
         s.position = world_point(instance, p);
         s.reach = world_reach(instance, s.reach);
         s.dpdu = world_vector(instance, s.dpdu);
+        s.dpdv = world_vector(instance, s.dpdv);
+        s.object_rate = length(ab) / length(world_vector(instance, ab));
         geometric = world_normal(instance, geometric);
         normal = world_normal(instance, normal);
     } else {
         s.position = p;
         s.object_position = object_point(instance, p);
+        s.object_rate = length(object_vector(instance, ab)) / length(ab);
     }
+    s.uv_rate = oriented ? 1.0 / vec2(length(s.dpdu), length(s.dpdv)) : vec2(0.0);
     s.geometric = normalize_or(geometric, -direction);
     s.normal = normalize_or(normal, s.geometric);
     if (dot(s.normal, s.geometric) < 0.0) s.normal = -s.normal;
@@ -94,7 +103,16 @@ Surface quadric_surface(Instance instance, float t, vec3 origin, vec3 direction)
     s.object_position = p;
     s.position = world_point(instance, p);
     s.reach = world_reach(instance, 1.0);
-    s.dpdu = world_vector(instance, 2.0 * PI * vec3(-p.y, p.x, 0.0));
+    float from_axis = length(p.xy);
+    vec2 outward = from_axis > 0.0 ? p.xy / from_axis : vec2(1.0, 0.0);
+    // Of length 1 in object space: where v grows, and where the angle grows
+    vec3 along_v = world_vector(instance, sphere ? vec3(-p.z * outward, from_axis) : vec3(-outward, 0.0));
+    vec3 along_u = world_vector(instance, vec3(-outward.y, outward.x, 0.0));
+    s.dpdu = 2.0 * PI * from_axis * along_u;
+    s.dpdv = sphere ? PI * along_v : along_v;
+    s.object_rate = 1.0 / length(along_u);
+    // A picture is seen squeezed at a pole, not blurred: there u counts as on the equator
+    s.uv_rate = vec2(INV_TWO_PI, sphere ? INV_PI : 1.0) / vec2(length(along_u), length(along_v));
     s.geometric = normalize(world_normal(instance, sphere ? p : vec3(0.0, 0.0, 1.0)));
     s.normal = s.geometric;
     s.material = instance.material;

@@ -23,7 +23,7 @@ vec3 environment_radiance(vec3 direction)
 {
 #ifdef ENVIRONMENT_IMAGE
     vec2 uv = environment_uv(direction);
-    TextureContext context = TextureContext(direction, direction, uv, direction, 0.0, 0.0);
+    TextureContext context = context_at(direction, uv, direction);
     return max(texture_evaluate(frame.environment_texture, context).rgb, vec3(0.0)) * frame.environment_scale;
 #else
     return frame.environment_radiance;

@@ -40,7 +40,7 @@ LightSample light_surface_point(Light light, vec3 from, vec3 point, vec3 normal,
     vec3 radiance = light.radiance;
 #ifdef TEXTURED_EMISSION
     if (light.texture != NONE) {
-        TextureContext context = TextureContext(point, point, uv, normal, 0.0, 0.0);
+        TextureContext context = context_at(point, uv, normal);
         radiance *= max(texture_evaluate(light.texture, context).rgb, vec3(0.0));
     }
 #endif

@@ -384,6 +384,35 @@ TextureInput texture_input_unpack(uvec4 w0)
     return r;
 }
 
+struct TexturePoint {
+    vec3 position; // position in the world
+    float footprint; // width of what the value stands for, in the world; 0 = a point
+    vec3 object_position; // position in object space
+    float object_footprint; // the width there
+    vec2 uv; // texture coordinates
+    vec2 uv_footprint; // the widths in u and in v
+    vec3 normal; // normal in the world
+    float time; // time in the shutter interval, 0..1
+    uint reference; // the texture
+    uvec3 spare; // room
+};
+const uint TEXTURE_POINT_WORDS = 5u;
+TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4)
+{
+    TexturePoint r;
+    r.position = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.footprint = uintBitsToFloat(w0.w);
+    r.object_position = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.object_footprint = uintBitsToFloat(w1.w);
+    r.uv = uintBitsToFloat(uvec2(w2.x, w2.y));
+    r.uv_footprint = uintBitsToFloat(uvec2(w2.z, w2.w));
+    r.normal = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
+    r.time = uintBitsToFloat(w3.w);
+    r.reference = w4.x;
+    r.spare = uvec3(w4.y, w4.z, w4.w);
+    return r;
+}
+
 struct Light {
     uint kind; // LIGHT_… kind
     float chance; // chance of choosing it

@@ -1,21 +1,8 @@
 // One scattering event of every path in the queue: emission, light sampling, and the next direction.
-// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, ROULETTE, GEOMETRIC_VETO,
+// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
 // TRANSPARENT_FILM and those of the menus.
-#include "stages/wave.glsl"
-#include "base/offset.glsl"
-#include "geometry/surface.glsl"
-#include "material/material.glsl"
-#include "material/medium.glsl"
-#include "light/light.glsl"
+#include "stages/direct.glsl"
 #include "stages/aov.glsl"
-
-// Indirect light of a sample may be limited (firefly_clamp); direct light is not.
-vec3 limited(vec3 radiance, uint depth)
-{
-    float most = max_component(radiance);
-    bool clamped = frame.firefly_clamp > 0.0 && depth > 1u && most > frame.firefly_clamp;
-    return clamped ? radiance * (frame.firefly_clamp / most) : radiance;
-}
 
 // Light that the ray met by itself, weighted against light sampling having found it.
 void add_emission(inout Path path, vec3 radiance, float light_sampling_pdf)
@@ -32,46 +19,6 @@ void shade_miss(inout Path path, vec3 direction)
 #ifdef HAS_ENVIRONMENT
     add_emission(path, environment_radiance(direction), path.pdf > 0.0 ? environment_light_pdf(direction) : 0.0);
 #endif
-}
-
-// Part of the way to a light that a shadow ray goes: what is nearer to the light than the rest, as its own box in the tree, is
-// not looked at (pbrt-v4 has 1 - 10^-4).
-const float SHADOW_END = 1.0 - 1.0 / 16384.0;
-
-// Where a ray leaves a surface; `side` is its cosine with the geometric normal.
-vec3 ray_origin(Surface surface, float side)
-{
-    return offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric, surface.reach);
-}
-
-// Sends a shadow ray to a light and puts what it may bring into the shadow queue.
-void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, bool last, uint slot, uint next)
-{
-    float pick = sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_LIGHT_PICK));
-    LightSample light = light_sample(surface.position, pick, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_LIGHT)));
-    vec3 wi = basis_to_local(basis, light.wi);
-    vec3 f = bsdf_eval(bsdf, wo, wi) * abs(wi.z);
-    if (!(light.pdf > 0.0) || max_component(f) <= 0.0) return;
-    float side = dot(light.wi, surface.geometric);
-#ifdef GEOMETRIC_VETO
-    if (side * wi.z <= 0.0) return;
-#endif
-#ifdef HAS_MEDIUM
-    // A light from infinity is left as it is: no way out of the glass is free.
-    bool through = bsdf.kind == MATERIAL_DIELECTRIC && wo.z * wi.z < 0.0;
-    uint medium = through ? medium_beyond(bsdf, surface.material, side) : path.medium;
-    if (!light.infinite) light.radiance *= medium_transmittance(medium, distance(surface.position, light.point));
-#endif
-    // The path ends here when `last`: then the BSDF will not look for the light.
-    float weight = light.delta || last ? 1.0 : power_heuristic(light.pdf, bsdf_pdf(bsdf, wo, wi));
-    vec3 radiance = limited(path.throughput * f * light.radiance * (weight / light.pdf), path.depth + 1u);
-    vec3 origin = ray_origin(surface, side);
-    vec3 target = offset_ray_origin(light.point, light.normal, light.reach);
-    vec3 direction = light.infinite ? light.wi : target - origin;
-    store_shadows(slot * SHADOW_WORDS, uvec4(floatBitsToUint(origin), floatBitsToUint(light.infinite ? FAR : SHADOW_END)));
-    store_shadows(slot * SHADOW_WORDS + 1u, uvec4(floatBitsToUint(direction), 0u));
-    store_shadows(slot * SHADOW_WORDS + 2u, uvec4(floatBitsToUint(radiance), 0u));
-    queue_append(QUEUE_SHADOWS, next, direction, slot);
 }
 
 // Chooses the next direction; false when the path ends.
@@ -102,7 +49,12 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
         path.throughput /= survival;
     }
 #endif
-    ray = WaveRay(ray_origin(surface, side), wi);
+#ifdef HAS_FOOTPRINT
+    ray.width += ray.spread * distance(ray.origin, surface.position);
+    if (s.pdf > 0.0) ray.spread = max(ray.spread, SAMPLE_SPREAD * inversesqrt(PI * s.pdf));
+#endif
+    ray.origin = ray_origin(surface, side);
+    ray.direction = wi;
     return true;
 }
 
@@ -124,8 +76,7 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     path.throughput *= medium_transmittance(path.medium, distance(ray.origin, surface.position));
 #endif
     vec3 facing_normal = front ? surface.normal : -surface.normal;
-    TextureContext context =
-        TextureContext(surface.position, surface.object_position, surface.uv, facing_normal, 0.0, 0.0);
+    TextureContext context = context_of(surface, ray, facing_normal);
     Bsdf bsdf = material_bsdf(material, context);
     vec3 emitted = vec3(0.0);
     if (front || material.two_sided != 0u) {

@@ -65,18 +65,25 @@ void path_store_medium(uint slot, Path p)
     store_paths(slot * PATH_WORDS + 2u, uvec4(p.medium, floatBitsToUint(p.eta_scale), p.key.pixel, p.key.index));
 }
 
-// The ray of a slot.
-struct WaveRay { vec3 origin; vec3 direction; };
+// The ray of a slot, and the cone around it that its pixel sees (Akenine-Möller et al. 2021).
+struct WaveRay {
+    vec3 origin;
+    float width;    // of the cone at the origin, scene units
+    vec3 direction; // of unit length
+    float spread;   // what the width grows by in a unit of length
+};
 
 WaveRay ray_load(uint slot)
 {
-    return WaveRay(uintBitsToFloat(fetch_rays(slot * RAY_WORDS).xyz), uintBitsToFloat(fetch_rays(slot * RAY_WORDS + 1u).xyz));
+    vec4 a = uintBitsToFloat(fetch_rays(slot * RAY_WORDS));
+    vec4 b = uintBitsToFloat(fetch_rays(slot * RAY_WORDS + 1u));
+    return WaveRay(a.xyz, a.w, b.xyz, b.w);
 }
 
 void ray_store(uint slot, WaveRay ray)
 {
-    store_rays(slot * RAY_WORDS, uvec4(floatBitsToUint(ray.origin), 0u));
-    store_rays(slot * RAY_WORDS + 1u, uvec4(floatBitsToUint(ray.direction), 0u));
+    store_rays(slot * RAY_WORDS, floatBitsToUint(vec4(ray.origin, ray.width)));
+    store_rays(slot * RAY_WORDS + 1u, floatBitsToUint(vec4(ray.direction, ray.spread)));
 }
 
 // What `hits` holds in its last lane, and `shadows`: there, 0 is a ray that nobody has followed yet.

@@ -1,10 +1,18 @@
 // What a texture may depend on.
 
 struct TextureContext {
-    vec3 position;        // in world space
-    vec3 object_position; // in the object space of the instance
-    vec2 uv;              // of the surface, v upward
-    vec3 normal;          // shading normal, world space
-    float footprint;      // width of the pixel on the surface, scene units; 0 = a point
-    float time;           // in the shutter interval, 0..1
+    vec3 position;          // in world space
+    vec3 object_position;   // in the object space of the instance
+    vec2 uv;                // of the surface, v upward
+    vec3 normal;            // shading normal, world space
+    float footprint;        // width of the pixel on the surface, scene units; 0 = a point
+    float object_footprint; // the same in units of object space
+    vec2 uv_footprint;      // the same in u and in v
+    float time;             // in the shutter interval, 0..1
 };
+
+// A point without a size, where world and object space are one.
+TextureContext context_at(vec3 position, vec2 uv, vec3 normal)
+{
+    return TextureContext(position, position, uv, normal, 0.0, 0.0, vec2(0.0), 0.0);
+}

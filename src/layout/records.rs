@@ -308,6 +308,30 @@ records! {
         at: u32,
     }
 
+    /// A point at which the host asks for the value of a texture.
+    struct TexturePoint {
+        /// position in the world
+        position: [f32; 3],
+        /// width of what the value stands for, in the world; 0 = a point
+        footprint: f32,
+        /// position in object space
+        object_position: [f32; 3],
+        /// the width there
+        object_footprint: f32,
+        /// texture coordinates
+        uv: [f32; 2],
+        /// the widths in u and in v
+        uv_footprint: [f32; 2],
+        /// normal in the world
+        normal: [f32; 3],
+        /// time in the shutter interval, 0..1
+        time: f32,
+        /// the texture
+        reference: u32,
+        /// room
+        spare: [u32; 3],
+    }
+
     /// A light, with its place in the alias table (Vose 1991) that chooses by power.
     struct Light {
         /// LIGHT_… kind

@@ -22,6 +22,7 @@ mod wide;
 
 pub use bounds::Bounds;
 pub(crate) use environment::rows as environment_rows;
+pub use textures::{PreparedTextures, prepare_textures};
 pub use variant::{Stage, defines, stack_size};
 pub use wide::{Leaves, Tree};
 
@@ -139,6 +140,8 @@ pub struct Features {
     pub textured_emission: bool,
     /// Glass that absorbs.
     pub medium: bool,
+    /// A texture that depends on the width of a pixel.
+    pub footprint: bool,
     /// A lens that is no pinhole.
     pub lens: bool,
 }

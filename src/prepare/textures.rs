@@ -22,6 +22,19 @@ pub(super) struct Range {
     pub max: f64,
 }
 
+/// The textures of a scene as kernels read them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreparedTextures {
+    /// Words of the records.
+    pub records: Vec<[u32; 4]>,
+    /// Words of the atlas pages.
+    pub texels: Vec<[u32; 4]>,
+    /// The virtual file `generated/textures.glsl`.
+    pub glsl: String,
+    /// The reference of each texture, by its handle.
+    pub references: Vec<u32>,
+}
+
 /// References of the textures of a scene, and how bright they are.
 pub(super) struct References {
     references: Vec<u32>,
@@ -45,8 +58,25 @@ impl References {
     }
 }
 
+/// Prepares the textures of a scene and nothing else, to ask for the values of some of them.
+///
+/// # Errors
+///
+/// When a texture is made of itself, or they are more than the kernels count.
+pub fn prepare_textures(scene: &Scene, asked: &[Handle<Texture>]) -> Result<PreparedTextures> {
+    let (textures, _) = build(scene, asked.iter().copied().collect())?;
+    Ok(textures)
+}
+
 /// Fills `textures`, `texels` and `texture_glsl`.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
+    let (textures, references) = build(scene, direct(scene))?;
+    (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
+    Ok(references)
+}
+
+/// `direct` are the textures that are asked for themselves, not only as inputs of others.
+fn build(scene: &Scene, direct: BTreeSet<Handle<Texture>>) -> Result<(PreparedTextures, References)> {
     if let Some(handle) = Texture::without_end(&scene.textures) {
         return Err(Error::scene(Texture::endless(scene.textures.name(handle))));
     }
@@ -57,7 +87,6 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
             places.insert(handle, atlas.place(scene, texture)?);
         }
     }
-    let direct = direct(scene);
     let has_noise = scene.textures.iter().any(|(_, _, texture)| matches!(texture, Texture::Noise(_)));
     // The kernels look for it at the start
     let words = if has_noise { noise::words().collect() } else { Vec::new() };
@@ -80,10 +109,13 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
         ))
         .help(format!("there may be 254 shapes and {most} words: use fewer textures")));
     }
-    out.textures = words;
-    out.texels = atlas.into_words();
-    out.texture_glsl = glsl(&shapes, &roots);
-    Ok(references)
+    let textures = PreparedTextures {
+        records: words,
+        texels: atlas.into_words(),
+        glsl: glsl(&shapes, &roots),
+        references: references.references.clone(),
+    };
+    Ok((textures, references))
 }
 
 /// The textures that are asked for themselves: all but those that are only ever inputs of others.

@@ -155,6 +155,7 @@ pub fn defines(
         flag("HAS_CONDUCTOR", material(MATERIAL_CONDUCTOR));
         flag("HAS_DIELECTRIC", material(MATERIAL_DIELECTRIC));
         flag("HAS_MEDIUM", features.medium);
+        flag("HAS_FOOTPRINT", features.footprint);
         flag("TEXTURED_COLOR", features.textured_color);
         flag("TEXTURED_SPECULAR", features.textured_specular);
         flag("TEXTURED_EXPONENT", features.textured_exponent);

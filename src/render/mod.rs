@@ -1,5 +1,6 @@
 //! [`Resident`] → [`Film`]: the plan and its execution.
 
+mod evaluate;
 mod frame;
 mod kernels;
 pub mod plan;
@@ -7,6 +8,7 @@ mod resident;
 mod slicing;
 mod wave;
 
+pub use evaluate::Evaluator;
 pub use kernels::{Kernels, key};
 pub use resident::Resident;
 pub use slicing::Slicing;

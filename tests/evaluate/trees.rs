@@ -1,9 +1,8 @@
 //! Patterns, noise and what joins them.
 
-use crate::common::probe::{Word, as_doubles, floats};
 use crate::common::random::Random;
 use crate::common::render::scene;
-use dapple::layout::Backend;
+use dapple::layout::{Backend, TexturePoint};
 use dapple::prepare;
 use dapple::scene::{
     Coordinates, Gradient, Handle, Metric, Noise, NoiseSum, PatternSpace, Scene, Texture, Value,
@@ -34,20 +33,17 @@ fn scene_of(textures: impl IntoIterator<Item = Texture>) -> (Scene, Handle<Textu
 
 /// Values of a texture at points in space, whose uv is their x and y, with both back ends.
 fn values(scene: &Scene, handle: Handle<Texture>, points: &[Vec3]) -> Vec<[f64; 4]> {
-    // The reference is what a material that it drives is told
-    let mut painted = scene.clone();
-    let surface = dapple::scene::Surface::Unlit { color: Value::Texture(handle) };
-    let material = painted.materials.add("painted", dapple::scene::Material { surface, emission: None });
-    let prepared = prepare::prepare(&painted).unwrap();
-    let reference = prepared.materials[material.index()].color_texture;
-    let words: Vec<Word> = points
-        .iter()
-        .flat_map(|p| [[reference, 0, 0, 0], floats(p.x, p.y, p.z, 0.0), floats(p.x, p.y, 0.0, 0.0), [0; 4]])
-        .collect();
+    let at = |p: &Vec3| TexturePoint {
+        position: p.to_array(),
+        object_position: p.to_array(),
+        uv: [p.x, p.y],
+        ..TexturePoint::default()
+    };
+    let points: Vec<_> = points.iter().map(at).collect();
     let [storage, texel] = [Backend::Storage, Backend::Texel]
-        .map(|backend| super::evaluate(&painted, backend, &words, 1).unwrap());
+        .map(|backend| super::evaluate(scene, handle, backend, &points).unwrap());
     assert!(storage == texel);
-    storage.into_iter().map(as_doubles).collect()
+    storage.into_iter().map(|value| value.map(f64::from)).collect()
 }
 
 fn reds(texture: Texture, points: &[Vec3]) -> Vec<f64> {

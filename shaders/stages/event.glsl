@@ -1,0 +1,38 @@
+// What the parts of a scattering event share. Switches of the variant: HAS_FOOTPRINT.
+#include "stages/wave.glsl"
+#include "base/offset.glsl"
+#include "geometry/surface.glsl"
+#include "texture/context.glsl"
+
+// Indirect light of a sample may be limited (firefly_clamp); direct light is not.
+vec3 limited(vec3 radiance, uint depth)
+{
+    float most = max_component(radiance);
+    bool clamped = frame.firefly_clamp > 0.0 && depth > 1u && most > frame.firefly_clamp;
+    return clamped ? radiance * (frame.firefly_clamp / most) : radiance;
+}
+
+// Where a ray leaves a surface; `side` is its cosine with the geometric normal.
+vec3 ray_origin(Surface surface, float side)
+{
+    return offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric, surface.reach);
+}
+
+// A direction that was chosen with density p stands for the light of a cone of solid angle 1 / (64 p): its spread times √(πp).
+const float SAMPLE_SPREAD = 0.25;
+// Cosine below which a slanted pixel is not made longer.
+const float LEAST_SLANT = 0.05;
+
+// What a texture is told of a surface: with the width of the pixel there, which grows where the ray is slanted.
+TextureContext context_of(Surface surface, WaveRay ray, vec3 facing_normal)
+{
+    TextureContext context = context_at(surface.position, surface.uv, facing_normal);
+    context.object_position = surface.object_position;
+#ifdef HAS_FOOTPRINT
+    float width = ray.width + ray.spread * distance(ray.origin, surface.position);
+    context.footprint = width / max(abs(dot(ray.direction, surface.geometric)), LEAST_SLANT);
+    context.object_footprint = context.footprint * surface.object_rate;
+    context.uv_footprint = context.footprint * surface.uv_rate;
+#endif
+    return context;
+}

@@ -1,0 +1,112 @@
+//! Values of textures at points that the host names.
+
+use super::kernels::key;
+use super::threads_of;
+use crate::gpu::{Bindings, Buffer, Command, Gpu, Pipeline, Place};
+use crate::layout::{Backend, Frame, Record as _, TexturePoint, WORD_BYTES, WORKGROUP};
+use crate::prepare::{Prepared, Stage, prepare_textures};
+use crate::scene::{Handle, Scene, Texture};
+use crate::shader::Compiler;
+use crate::{Error, Result};
+use std::sync::Arc;
+
+/// Most points of one dispatch.
+const MOST_POINTS: usize = 1 << 16;
+
+/// Some textures of a scene on a device, to ask for their values.
+pub struct Evaluator {
+    gpu: Arc<Gpu>,
+    references: Vec<u32>,
+    pipeline: Arc<Pipeline>,
+    bindings: Arc<Bindings>,
+    frame: Frame,
+    uniform: Arc<Buffer>,
+    points: Arc<Buffer>,
+    values: Arc<Buffer>,
+    host: Arc<Buffer>,
+}
+
+impl Evaluator {
+    /// Puts textures of a scene on the device and compiles the kernel that gives their values.
+    ///
+    /// # Errors
+    ///
+    /// As [`prepare_textures`], and when the kernel does not compile or the device has no memory.
+    pub fn new(
+        gpu: Arc<Gpu>,
+        compiler: &mut Compiler,
+        scene: &Scene,
+        asked: &[Handle<Texture>],
+        backend: Backend,
+    ) -> Result<Self> {
+        let textures = prepare_textures(scene, asked)?;
+        compiler.sources_mut().set_virtual("generated/textures.glsl", textures.glsl.as_str())?;
+        let kernel = compiler.kernel(&key(scene, &Prepared::default(), Stage::Evaluate, backend))?;
+        let layout = gpu.layout(backend)?;
+        let pipeline = gpu.pipeline(&layout, &kernel)?;
+        let point_bytes = MOST_POINTS as u64 * u64::from(TexturePoint::WORDS) * WORD_BYTES;
+        let value_bytes = MOST_POINTS as u64 * WORD_BYTES;
+        let uniform = gpu.buffer("frame", size_of::<Frame>() as u64, Place::Upload)?;
+        let points = gpu.buffer("points", point_bytes, Place::Upload)?;
+        let values = gpu.buffer("values", value_bytes, Place::Device)?;
+        let host = gpu.buffer("values (host)", value_bytes, Place::Readback)?;
+        let records = gpu.upload("textures", bytemuck::cast_slice(&textures.records))?;
+        let texels = gpu.upload("texels", bytemuck::cast_slice(&textures.texels))?;
+        let bindings = gpu.bindings(
+            &layout,
+            &[
+                ("frame", &uniform),
+                ("points", &points),
+                ("textures", &records),
+                ("texels", &texels),
+                ("values", &values),
+            ],
+        )?;
+        let frame = Frame { threads: threads_of(&gpu), ..Frame::default() };
+        Ok(Self {
+            gpu,
+            references: textures.references,
+            pipeline,
+            bindings,
+            frame,
+            uniform,
+            points,
+            values,
+            host,
+        })
+    }
+
+    /// The values of a texture: red, green, blue and alpha for each point. The texture must be one of those that were asked
+    /// for; the `reference` of a point is filled in here.
+    ///
+    /// # Errors
+    ///
+    /// When the device fails.
+    pub fn values(&self, texture: Handle<Texture>, points: &[TexturePoint]) -> Result<Vec<[f32; 4]>> {
+        let mut values = Vec::with_capacity(points.len());
+        for chunk in points.chunks(MOST_POINTS) {
+            let reference = self.references[texture.index()];
+            let chunk: Vec<_> = chunk.iter().map(|point| TexturePoint { reference, ..*point }).collect();
+            self.chunk(&chunk, &mut values)?;
+        }
+        Ok(values)
+    }
+
+    fn chunk(&self, points: &[TexturePoint], values: &mut Vec<[f32; 4]>) -> Result<()> {
+        let count = points.len() as u32;
+        let frame = Frame { point_count: count, ..self.frame };
+        if !self.uniform.write(bytemuck::bytes_of(&frame)) || !self.points.write(bytemuck::cast_slice(points))
+        {
+            return Err(Error::device("the driver does not map memory for the points of textures"));
+        }
+        let bytes = u64::from(count) * WORD_BYTES;
+        let groups = [count.div_ceil(WORKGROUP).div_ceil(self.frame.threads), self.frame.threads];
+        self.gpu.run(&[
+            Command::Dispatch { pipeline: &self.pipeline, bindings: &self.bindings, groups },
+            Command::Barrier,
+            Command::Copy { from: &self.values, to: &self.host, bytes },
+            Command::Barrier,
+        ])?;
+        self.host.read(bytes, |words| values.extend_from_slice(bytemuck::cast_slice(words)))
+    }
+}
