@@ -38,12 +38,13 @@ const SHADER_ROOMS: &[(&str, &[&str])] = &[
     ("probe.comp", ALL),
     ("shared", &[]),
     ("base", &[]),
-    ("geometry", &["base", "shared", "texture", "generated"]),
+    ("geometry", &["base", "shared", "texture", "generated", "detail"]),
     ("camera", &["base", "shared", "texture", "generated"]),
     ("texture", &["base", "shared"]),
     ("generated", &["base", "shared", "texture"]),
     ("material", &["base", "shared", "texture", "generated"]),
-    ("light", &["base", "shared", "texture", "generated"]),
+    ("light", &["base", "shared", "texture", "generated", "detail"]),
+    ("detail", &["base", "shared", "texture", "generated"]),
 ];
 
 const MOST_GLSL_LINES: usize = 150;

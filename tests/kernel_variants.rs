@@ -10,8 +10,8 @@ use dapple::render;
 use dapple::scene::{
     Aperture, Channel, ColorSpace, Conductor, Coordinates, Dielectric, Emission, Environment, FilterKind,
     Fresnel, Gradient, Handle, Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Metric,
-    Noise, NoiseSum, PatternSpace, Sampler, Scene, Shape, ShapeKind, Surface, TexelFilter, Texels, Texture,
-    UvTransform, Value, WorleyFeature, Wrap,
+    Noise, NoiseSum, Opacity, PatternSpace, Sampler, Scene, Shape, ShapeKind, Surface, TexelFilter, Texels,
+    Texture, UvTransform, Value, WorleyFeature, Wrap,
 };
 use dapple::shader::{BindingClass, Compiler, Reflection, Spirv, reflect, scan, translates_to_wgsl};
 use glam::{Affine3A, Mat3, Vec3};
@@ -39,7 +39,7 @@ fn glass(ior: f32, alpha: [f32; 2], absorption: f32) -> Surface {
 
 fn material(scene: &mut Scene, surface: Surface, light: Option<Value<Vec3>>) -> Handle<Material> {
     let emission = light.map(|radiance| Emission { radiance, two_sided: false });
-    scene.materials.add("material", Material { surface, emission })
+    scene.materials.add("material", Material::new(surface, emission))
 }
 
 fn place_triangle(scene: &mut Scene, material: Handle<Material>, copies: u32) {
@@ -170,6 +170,8 @@ fn trees() -> Scene {
     }
     let shade = Surface::Diffuse { color: Value::Texture(last) };
     let lamp = material(&mut scene, shade, Some(Value::Texture(last)));
+    let (value, filter) = (Value::Texture(last), Value::Texture(last));
+    scene.materials[lamp].detail.opacity = Opacity { value, cutoff: None, filter };
     place_triangle(&mut scene, lamp, 1);
     place_shape(&mut scene, lamp, sphere());
     scene.environment = surroundings(Value::Texture(last));

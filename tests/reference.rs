@@ -14,7 +14,6 @@
 //! | `e_noise`, `f_marble_dots` | procedural textures |
 //! | `g_bump`, `m_instances`, `m_bumpmap` | bump mapping |
 //! | `h_normalmap` | normal maps |
-//! | `i_alpha`, `m_mask` | cut-outs |
 //! | `n_infinite_image` | an equal-area environment |
 //! | `o_lens_dgauss`, `o_lens_wide` | lenses of several elements |
 //! | `p_equirect`, `p_ortho` | other cameras |
@@ -108,6 +107,6 @@ macro_rules! scenes {
 }
 
 scenes! {
-    pbrt: a_cornell b_wrap j_thinlens k_softshadow l_materials n_infinite_const r_hardlights;
-    mitsuba: m_area_lights m_bitmap_wrap_filter m_cornell_saturated m_dielectric m_thinlens;
+    pbrt: a_cornell b_wrap i_alpha j_thinlens k_softshadow l_materials n_infinite_const r_hardlights;
+    mitsuba: m_area_lights m_bitmap_wrap_filter m_cornell_saturated m_dielectric m_mask m_thinlens;
 }

@@ -1,4 +1,7 @@
-// Rays that ran out of steps: `parked` keeps current reference, depth of the stack, instance and hit, then the stack.
+// Rays that ran out of steps: `parked` keeps current reference, depth of the stack, instance, hit, and the light that has
+// come through, then the stack.
+
+#include "geometry/walk.glsl"
 
 uint parked_at(uint place) { return place * (PARKED_HEAD + frame.parked_stack); }
 
@@ -10,6 +13,20 @@ Walk parked_walk(uint place)
 }
 
 uint parked_entry(uint place, uint i) { return parked[parked_at(place) + PARKED_HEAD + i]; }
+
+vec3 parked_through(uint place)
+{
+    uint at = parked_at(place) + 6u;
+    return uintBitsToFloat(uvec3(parked[at], parked[at + 1u], parked[at + 2u]));
+}
+
+void park_through(uint place, vec3 through)
+{
+    uint at = parked_at(place) + 6u;
+    parked[at] = floatBitsToUint(through.x);
+    parked[at + 1u] = floatBitsToUint(through.y);
+    parked[at + 2u] = floatBitsToUint(through.z);
+}
 
 void park(uint place, Walk walk)
 {

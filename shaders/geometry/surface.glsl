@@ -17,6 +17,8 @@ struct Surface {
     float object_rate;    // units of object space in a unit of length of the world
     uint material;
     uint light;           // its light, or NONE
+    uint instance;
+    uint primitive;       // number of the triangle within its mesh, else 0
 };
 
 Vertex vertex_fetch(uint i) { return vertex_unpack(fetch_vertices(i * VERTEX_WORDS), fetch_vertices(i * VERTEX_WORDS + 1u)); }
@@ -41,6 +43,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec3 ac = triangle.c - triangle.a;
     vec3 p = triangle.a + bary.x * ab + bary.y * ac;
     vec3 geometric = cross(ab, ac);
+    s.primitive = triangle.primitive & ~PRIMITIVE_LETS_THROUGH;
     s.reach = max_component(max(abs(triangle.a), max(abs(triangle.b), abs(triangle.c))));
 
     // uv (0,0), (1,0), (1,1) where the mesh has none; two corners changed places where it was mirrored into the world
@@ -50,7 +53,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec2 uv2 = turned ? vec2(1.0, 0.0) : vec2(1.0);
     vec3 normal = geometric;
     if (instance.first_face != NONE) {
-        Face face = face_unpack(fetch_faces((instance.first_face + triangle.primitive) * FACE_WORDS));
+        Face face = face_unpack(fetch_faces((instance.first_face + s.primitive) * FACE_WORDS));
         Vertex a = vertex_fetch(face.vertices.x);
         Vertex b = vertex_fetch(face.vertices.y);
         Vertex c = vertex_fetch(face.vertices.z);
@@ -88,7 +91,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     s.normal = normalize_or(normal, s.geometric);
     if (dot(s.normal, s.geometric) < 0.0) s.normal = -s.normal;
     s.material = triangle.material != NONE ? triangle.material : instance.material;
-    s.light = instance.light == NONE ? NONE : instance.light + instance.light_stride * triangle.primitive;
+    s.light = instance.light == NONE ? NONE : instance.light + instance.light_stride * s.primitive;
     return s;
 }
 
@@ -117,6 +120,7 @@ Surface quadric_surface(Instance instance, float t, vec3 origin, vec3 direction)
     s.normal = s.geometric;
     s.material = instance.material;
     s.light = instance.light;
+    s.primitive = 0u;
     return s;
 }
 
@@ -130,12 +134,16 @@ Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 dire
         if (baked != NONE) owner = baked;
     }
     Instance place = instance_fetch(owner);
+    Surface s;
 #if defined(HAS_SPHERES) || defined(HAS_DISKS)
-    if (triangle == NONE) return quadric_surface(place, t, origin, direction);
+    if (triangle == NONE) s = quadric_surface(place, t, origin, direction);
+    else
 #endif
-    return triangle_surface(triangle, place, place.kind != INSTANCE_SOUP, origin, direction);
+    s = triangle_surface(triangle, place, place.kind != INSTANCE_SOUP, origin, direction);
 #else
-    Instance place = instance_fetch(triangle_fetch(triangle).instance);
-    return triangle_surface(triangle, place, false, origin, direction);
+    uint owner = triangle_fetch(triangle).instance;
+    Surface s = triangle_surface(triangle, instance_fetch(owner), false, origin, direction);
 #endif
+    s.instance = owner;
+    return s;
 }

@@ -1,5 +1,5 @@
 // Rays through the two levels of trees. Switches of the variant: HAS_INSTANCES (there is a tree over instances; else
-// the root is that of the triangles in world space), HAS_SPHERES, HAS_DISKS, ANY_HIT (stop at the first hit), PARKING.
+// the root is that of the triangles in world space), HAS_SPHERES, HAS_DISKS, HAS_OPACITY (some surfaces let rays through), ANY_HIT (stop at the first hit), PARKING.
 //
 // A ray takes at most `frame.step_limit` steps at once: Mesa before 25.0 leaves loops after 65,535 rounds. A step takes up
 // to ROUNDS_A_STEP of them.
@@ -7,26 +7,19 @@
 #include "geometry/instance.glsl"
 #include "geometry/quadric.glsl"
 #include "geometry/triangle.glsl"
-
-struct Hit { float t; uint triangle; uint instance; };
-
-// References besides those of nodes and leaves.
-const uint REFERENCE_DONE = 0xffffffffu;
-const uint REFERENCE_LEAVE_INSTANCE = 0xfffffffeu;
-
-// Where a ray is: what is open, and what it met so far.
-struct Walk { uint current; uint depth; uint instance; Hit hit; };
+#include "geometry/walk.glsl"
 
 #ifdef PARKING
 #include "geometry/park.glsl"
 #endif
+#ifdef HAS_OPACITY
+#include "geometry/passing.glsl"
+#endif
 #include "geometry/node.glsl"
-
-bool is_in_tree(uint reference) { return (reference & (LEAF | LEAF_INSTANCE)) != (LEAF | LEAF_INSTANCE); }
 
 // Follows a ray, from `hit.t` = t_max. True when it is finished. Else it ran out of steps: with PARKING it is parked at
 // `place` and goes on from there when `resumed`; without, `hit` is of no use.
-bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit hit)
+bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Passing passing, inout Hit hit)
 {
     uint stack[TRAVERSAL_STACK];
     stack[0] = REFERENCE_DONE;
@@ -36,6 +29,7 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
 #ifdef PARKING
     if (resumed) {
         walk = parked_walk(place);
+        passing.through = parked_through(place);
         for (uint i = 0u; i < walk.depth; ++i) stack[i] = parked_entry(place, i);
     }
 #ifdef HAS_INSTANCES
@@ -45,11 +39,12 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
     }
 #endif
 #endif
+    Hit candidate = NO_HIT;
     uint steps = 0u;
     while (walk.current != REFERENCE_DONE && steps < limit) {
         // One step is a node or a triangle: the same words are read as both, since on lavapipe a branch that not all
         // lanes take costs as much as both of its sides.
-        while (is_in_tree(walk.current) && steps < limit) {
+        while (is_in_tree(walk.current) && !is_hit(candidate) && steps < limit) {
             bool leaf = (walk.current & LEAF) != 0u;
             uint item = walk.current & LEAF_FIRST_MASK;
             uint word = item * ITEM_WORDS;
@@ -62,6 +57,13 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
             float t;
             vec2 bary;
             bool found = triangle_hit(triangle.a, triangle.b, triangle.c, ray.triangles, walk.hit.t, t, bary) && leaf;
+#ifdef HAS_OPACITY
+            // A triangle that may let the ray through is looked at outside of this loop
+            if (found && (triangle.primitive & PRIMITIVE_LETS_THROUGH) != 0u) {
+                candidate = t > passing.t_min ? Hit(t, item, walk.instance) : NO_HIT;
+                found = false;
+            }
+#endif
             walk.hit.t = found ? t : walk.hit.t;
             walk.hit.triangle = found ? item : walk.hit.triangle;
             walk.hit.instance = found ? walk.instance : walk.hit.instance;
@@ -85,8 +87,9 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
 #endif
         }
 #ifdef HAS_INSTANCES
-        bool leaves = walk.current == REFERENCE_LEAVE_INSTANCE;
-        bool enters = !is_in_tree(walk.current) && walk.current < REFERENCE_LEAVE_INSTANCE;
+        bool ready = !is_hit(candidate);
+        bool leaves = ready && walk.current == REFERENCE_LEAVE_INSTANCE;
+        bool enters = ready && !is_in_tree(walk.current) && walk.current < REFERENCE_LEAVE_INSTANCE;
         bool pop = leaves || enters;
         bool found = false;
         if (leaves) {
@@ -101,10 +104,14 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
             vec3 d = move ? object_vector(entered, direction) : direction;
             float t = 0.0;
 #ifdef HAS_SPHERES
-            if (entered.kind == INSTANCE_SPHERE) found = sphere_hit(o, d, walk.hit.t, t);
+            if (entered.kind == INSTANCE_SPHERE) found = sphere_hit(o, d, passing.t_min, walk.hit.t, t);
 #endif
 #ifdef HAS_DISKS
-            if (entered.kind == INSTANCE_DISK) found = disk_hit(o, d, walk.hit.t, t);
+            if (entered.kind == INSTANCE_DISK) found = disk_hit(o, d, passing.t_min, walk.hit.t, t);
+#endif
+#ifdef HAS_OPACITY
+            if (found) candidate = Hit(t, NONE, index);
+            found = false;
 #endif
             if (found) walk.hit = Hit(t, NONE, index);
             // Into its tree, with a mark on the stack for the way back
@@ -126,11 +133,16 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Hit h
 #endif
         steps += 1u;
 #endif
+#ifdef HAS_OPACITY
+        passing_decide(passing, walk, candidate, origin, direction);
+        candidate = NO_HIT;
+#endif
     }
     hit = walk.hit;
     if (walk.current == REFERENCE_DONE) return true;
 #ifdef PARKING
     park(place, walk);
+    park_through(place, passing.through);
     for (uint i = 0u; i < walk.depth; ++i) park_entry(place, i, stack[i]);
 #endif
     return false;

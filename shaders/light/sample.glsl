@@ -3,6 +3,9 @@
 #include "base/sampling.glsl"
 #include "texture/context.glsl"
 #include "generated/textures.glsl"
+#ifdef HAS_OPACITY
+#include "detail/opacity.glsl"
+#endif
 
 struct LightSample {
     vec3 wi;          // unit direction to the light
@@ -43,6 +46,9 @@ LightSample light_surface_point(Light light, vec3 from, vec3 point, vec3 normal,
         TextureContext context = context_at(point, uv, normal);
         radiance *= max(texture_evaluate(light.texture, context).rgb, vec3(0.0));
     }
+#endif
+#ifdef HAS_OPACITY
+    radiance *= opacity_at(detail_fetch(light.material), context_at(point, uv, normal));
 #endif
     vec3 reach = abs(light.position) + abs(light.edge_u) + abs(light.edge_v);
     if (light.kind == LIGHT_SPHERE) reach += abs(vec3(light.uv0, light.uv1.x));

@@ -22,7 +22,7 @@ const uint PATH_WORDS = 3u; // Words of the path of a slot.
 const uint PATH_DEPTH_BITS = 12u; // Bits of each of the two depths of a path.
 const uint SHADOW_WORDS = 3u; // Words of the shadow ray of a slot.
 const uint AOV_WORDS = 2u; // Words of albedo, depth and normal of a slot.
-const uint PARKED_HEAD = 6u; // Numbers that a parked ray keeps beside its stack.
+const uint PARKED_HEAD = 9u; // Numbers that a parked ray keeps beside its stack.
 const uint ROUNDS_A_STEP = 4u; // Most rounds of loops that a step of a traversal takes: its own, and one for each child that waits.
 const uint QUEUE_BINS = 8u; // Parts of a queue, one for each octant of directions.
 const uint COUNTER_TURN = 0u; // Counter: the half of the queues that is read, 0 or 1; the other half is filled.
@@ -43,6 +43,7 @@ const uint LEAF_FIRST_MASK = 268435455u; // Bits of a reference: the item of the
 const uint CHILD_NONE = 255u; // Byte of a node where it has no child.
 const uint CHILD_OFFSET_MASK = 15u; // Bits of the byte of a child: its first item, counted from the first item of all children.
 const uint CHILD_MARK_SHIFT = 24u; // Places that the other bits of that byte move up to become those of a reference.
+const uint PRIMITIVE_LETS_THROUGH = 2147483648u; // Bit of the number of a triangle within its mesh: rays may go through it.
 const uint INSTANCE_MESH = 0u; // Instance kind: triangles in object space.
 const uint INSTANCE_SOUP = 1u; // Instance kind: all triangles that are placed once, in world space.
 const uint INSTANCE_SPHERE = 2u; // Instance kind: unit sphere.
@@ -159,7 +160,7 @@ struct Triangle {
     vec3 b; // second vertex
     uint material; // its material, or NONE for that of the instance
     vec3 c; // third vertex
-    uint primitive; // number of the triangle within its mesh
+    uint primitive; // number of the triangle within its mesh, and the bit PRIMITIVE_LETS_THROUGH
 };
 const uint TRIANGLE_WORDS = 3u;
 Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
@@ -283,6 +284,27 @@ Material material_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4
     r.exponent_texture = w5.w;
     r.two_sided = w6.x;
     r.spare = uvec3(w6.y, w6.z, w6.w);
+    return r;
+}
+
+struct Detail {
+    float opacity; // how much of the surface is there, 0 to 1
+    uint opacity_texture; // texture of opacity, a factor on it
+    float cutoff; // opacity from which a point is there, or less than 0: each point is there to a part
+    uint filter_texture; // texture of the filter, a factor on it
+    vec3 filter_color; // colour of light that goes straight through
+    uint spare; // room
+};
+const uint DETAIL_WORDS = 2u;
+Detail detail_unpack(uvec4 w0, uvec4 w1)
+{
+    Detail r;
+    r.opacity = uintBitsToFloat(w0.x);
+    r.opacity_texture = w0.y;
+    r.cutoff = uintBitsToFloat(w0.z);
+    r.filter_texture = w0.w;
+    r.filter_color = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.spare = w1.w;
     return r;
 }
 
@@ -429,7 +451,8 @@ struct Light {
     vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a sphere
     vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
     vec2 uv2; // uv of the third vertex less the first
-    vec2 spare; // room
+    uint material; // material of a surface
+    uint spare; // room
 };
 const uint LIGHT_WORDS = 7u;
 Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
@@ -450,7 +473,8 @@ Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, u
     r.uv0 = uintBitsToFloat(uvec2(w5.x, w5.y));
     r.uv1 = uintBitsToFloat(uvec2(w5.z, w5.w));
     r.uv2 = uintBitsToFloat(uvec2(w6.x, w6.y));
-    r.spare = uintBitsToFloat(uvec2(w6.z, w6.w));
+    r.material = w6.z;
+    r.spare = w6.w;
     return r;
 }
 

@@ -7,16 +7,22 @@ void main()
     uint slot = queue_take(QUEUE_PATHS).slot;
     if (slot == NONE) return;
     WaveRay ray = ray_load(slot);
+    uvec4 before = fetch_hits(slot);
     Hit nearest = Hit(FAR, NONE, NONE);
+    Passing passing = PASSING_NOTHING;
+#ifdef HAS_OPACITY
+    passing.key = path_opacity_key(path_load(slot));
+    if (before.w >= HIT_LONG) passing.t_min = uintBitsToFloat(before.x);
+#endif
 #ifdef PARKING
-    bool finished = traverse(ray.origin, ray.direction, fetch_hits(slot).w == HIT_PARKED, 2u * slot, nearest);
+    bool finished = traverse(ray.origin, ray.direction, before.w == HIT_PARKED, 2u * slot, passing, nearest);
     uint unfinished = HIT_PARKED;
 #else
-    if (fetch_hits(slot).w == HIT_LONG) return;
-    bool finished = traverse(ray.origin, ray.direction, false, 0u, nearest);
+    if (before.w == HIT_LONG) return;
+    bool finished = traverse(ray.origin, ray.direction, false, 0u, passing, nearest);
     uint unfinished = HIT_LONG;
 #endif
-    bool hit = nearest.triangle != NONE || nearest.instance != NONE;
-    uint state = !finished ? unfinished : hit ? HIT_SURFACE : HIT_MISS;
-    store_hits(slot, uvec4(floatBitsToUint(nearest.t), nearest.triangle, nearest.instance, state));
+    uint state = !finished ? unfinished : is_hit(nearest) ? HIT_SURFACE : HIT_MISS;
+    float t = finished ? nearest.t : passing.t_min;
+    store_hits(slot, uvec4(floatBitsToUint(t), nearest.triangle, nearest.instance, state));
 }

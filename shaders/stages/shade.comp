@@ -2,6 +2,9 @@
 // Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
 // TRANSPARENT_FILM and those of the menus.
 #include "stages/direct.glsl"
+#ifdef HAS_OPACITY
+#include "geometry/passing.glsl"
+#endif
 #include "stages/aov.glsl"
 
 // Light that the ray met by itself, weighted against light sampling having found it.
@@ -58,6 +61,18 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
     return true;
 }
 
+#ifdef HAS_FILTER
+// Whether a ray goes on where its surface is not there, coloured by it: no event of the path.
+bool passes_through(inout Path path, Surface surface, vec3 direction)
+{
+    Detail detail = detail_fetch(surface.material);
+    TextureContext context = opacity_context(surface);
+    if (opacity_stops(path_opacity_key(path), surface, opacity_at(detail, context), direction)) return false;
+    path.throughput *= filter_at(detail, context);
+    return true;
+}
+#endif
+
 // One event; true when the path goes on.
 bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
 {
@@ -65,8 +80,14 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
         shade_miss(path, ray.direction);
         return false;
     }
-    path.flags |= PATH_COVERED;
     Surface surface = surface_at(uintBitsToFloat(hit.x), hit.y, hit.z, ray.origin, ray.direction);
+#ifdef HAS_FILTER
+    if (passes_through(path, surface, ray.direction)) {
+        store_hits(slot, uvec4(hit.xyz, HIT_PASSED));
+        return true;
+    }
+#endif
+    path.flags |= PATH_COVERED;
     bool front = dot(ray.direction, surface.geometric) < 0.0;
     Material material = material_fetch(surface.material);
 #ifdef HAS_MEDIUM

@@ -13,19 +13,20 @@ void main()
     uvec4 b = fetch_shadows(slot * SHADOW_WORDS + 1u);
     uvec4 c = fetch_shadows(slot * SHADOW_WORDS + 2u);
     Hit blocker = Hit(uintBitsToFloat(a.w), NONE, NONE);
+    Passing passing = PASSING_NOTHING;
 #ifdef PARKING
-    bool finished = traverse(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), c.w == HIT_PARKED, 2u * slot + 1u, blocker);
+    bool finished = traverse(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), c.w == HIT_PARKED, 2u * slot + 1u, passing, blocker);
     uint unfinished = HIT_PARKED;
 #else
     // A ray that is known to be long is not followed again: it hits nothing and stays in the queue.
     if (c.w == HIT_LONG) blocker.t = 0.0;
-    bool finished = traverse(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), false, 0u, blocker) && c.w != HIT_LONG;
+    bool finished = traverse(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), false, 0u, passing, blocker) && c.w != HIT_LONG;
     uint unfinished = HIT_LONG;
 #endif
     uvec4 radiance = fetch_paths(slot * PATH_WORDS + 1u);
     if (finished) {
-        bool lit = blocker.triangle == NONE && blocker.instance == NONE;
-        vec3 sum = uintBitsToFloat(radiance.xyz) + (lit ? uintBitsToFloat(c.xyz) : vec3(0.0));
+        bool lit = !is_hit(blocker);
+        vec3 sum = uintBitsToFloat(radiance.xyz) + (lit ? uintBitsToFloat(c.xyz) * passing.through : vec3(0.0));
         uint state = radiance.w & ~(PATH_WAITS << PATH_FLAGS_SHIFT);
         if (lit || c.w != 0u) store_paths(slot * PATH_WORDS + 1u, uvec4(floatBitsToUint(sum), state));
         return;

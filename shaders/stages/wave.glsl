@@ -65,6 +65,9 @@ void path_store_medium(uint slot, Path p)
     store_paths(slot * PATH_WORDS + 2u, uvec4(p.medium, floatBitsToUint(p.eta_scale), p.key.pixel, p.key.index));
 }
 
+// Of the decisions at surfaces that let some rays through, the same until the path has its next event.
+uint path_opacity_key(Path p) { return hash2(hash2(p.key.pixel, p.key.index), p.depth); }
+
 // The ray of a slot, and the cone around it that its pixel sees (Akenine-Möller et al. 2021).
 struct WaveRay {
     vec3 origin;
@@ -91,3 +94,4 @@ const uint HIT_MISS = 0u;
 const uint HIT_SURFACE = 1u;
 const uint HIT_LONG = 2u;   // ran out of steps: waits for the kernel that can park it
 const uint HIT_PARKED = 3u; // stands where it was parked
+const uint HIT_PASSED = 4u; // goes on beyond the surface at `t`, which has let it through

@@ -56,7 +56,7 @@ constants! {
     /// Words of albedo, depth and normal of a slot.
     AOV_WORDS = 2;
     /// Numbers that a parked ray keeps beside its stack.
-    PARKED_HEAD = 6;
+    PARKED_HEAD = 9;
     /// Most rounds of loops that a step of a traversal takes: its own, and one for each child that waits.
     ROUNDS_A_STEP = 4;
     /// Parts of a queue, one for each octant of directions.
@@ -97,6 +97,8 @@ constants! {
     CHILD_OFFSET_MASK = 15;
     /// Places that the other bits of that byte move up to become those of a reference.
     CHILD_MARK_SHIFT = 24;
+    /// Bit of the number of a triangle within its mesh: rays may go through it.
+    PRIMITIVE_LETS_THROUGH = 1 << 31;
     /// Instance kind: triangles in object space.
     INSTANCE_MESH = 0;
     /// Instance kind: all triangles that are placed once, in world space.

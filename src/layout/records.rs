@@ -144,7 +144,7 @@ records! {
         material: u32,
         /// third vertex
         c: [f32; 3],
-        /// number of the triangle within its mesh
+        /// number of the triangle within its mesh, and the bit PRIMITIVE_LETS_THROUGH
         primitive: u32,
     }
 
@@ -238,6 +238,22 @@ records! {
         two_sided: u32,
         /// room
         spare: [u32; 3],
+    }
+
+    /// What a material does to the surface itself: its opacity and its relief. Texture fields are references, or NONE.
+    struct Detail {
+        /// how much of the surface is there, 0 to 1
+        opacity: f32,
+        /// texture of opacity, a factor on it
+        opacity_texture: u32,
+        /// opacity from which a point is there, or less than 0: each point is there to a part
+        cutoff: f32,
+        /// texture of the filter, a factor on it
+        filter_texture: u32,
+        /// colour of light that goes straight through
+        filter_color: [f32; 3],
+        /// room
+        spare: u32,
     }
 
     /// A picture in the atlas, as a texture sees it.
@@ -364,8 +380,10 @@ records! {
         uv1: [f32; 2],
         /// uv of the third vertex less the first
         uv2: [f32; 2],
+        /// material of a surface
+        material: u32,
         /// room
-        spare: [f32; 2],
+        spare: u32,
     }
 
     /// A cell of the importance table of the environment (alias method).

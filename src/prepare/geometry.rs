@@ -5,6 +5,7 @@
 
 use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
+use super::details::lets_through;
 use super::triangles::{mirrors, push_triangles, quad_mesh};
 use super::wide::Leaves;
 use super::{Prepared, rows};
@@ -12,7 +13,7 @@ use crate::layout::{
     INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
     LEAF_INSTANCE, NONE, Triangle,
 };
-use crate::scene::{Mesh, Scene, Shape, ShapeKind};
+use crate::scene::{Handle, Mesh, Scene, Shape, ShapeKind};
 use crate::{Error, Result};
 use glam::{Affine3A, Mat3A, Vec3};
 
@@ -76,8 +77,9 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
             ShapeKind::Sphere { .. } => ellipsoid_bounds(&world_from_object),
             ShapeKind::Disk { .. } => disk_bounds(&world_from_object),
             ShapeKind::Quad { .. } => {
-                let first = soup.len();
-                let face = push_triangles(&quad_mesh(), &world_from_object, Some(instance), out, &mut soup);
+                let (first, mesh) = (soup.len(), quad_mesh());
+                let open = lets_through(scene, &mesh, [shape.material]);
+                let face = push_triangles(&mesh, &world_from_object, Some(instance), &open, out, &mut soup);
                 out.instances[instance as usize].first_face = face;
                 bounds_of(&soup[first..])
             }
@@ -97,13 +99,14 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         out.instances[index as usize].default_uv = u32::from(mesh.uvs.is_empty());
         let bounds = if once {
             let first = soup.len();
-            let face = push_triangles(mesh, &map, Some(index), out, &mut soup);
+            let open = lets_through(scene, mesh, [instance.material]);
+            let face = push_triangles(mesh, &map, Some(index), &open, out, &mut soup);
             out.instances[index as usize].first_face = face;
             bounds_of(&soup[first..])
         } else {
             let tree = match trees[instance.mesh.index()] {
                 Some(tree) => tree,
-                None => *trees[instance.mesh.index()].insert(mesh_tree(mesh, out)?),
+                None => *trees[instance.mesh.index()].insert(mesh_tree(scene, instance.mesh, out)?),
             };
             out.instances[index as usize].root = tree.root;
             out.instances[index as usize].first_face = tree.first_face;
@@ -115,9 +118,11 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
     Ok(placed)
 }
 
-fn mesh_tree(mesh: &Mesh, out: &mut Prepared) -> Result<MeshTree> {
-    let mut triangles = Vec::new();
-    let first_face = push_triangles(mesh, &Affine3A::IDENTITY, None, out, &mut triangles);
+fn mesh_tree(scene: &Scene, handle: Handle<Mesh>, out: &mut Prepared) -> Result<MeshTree> {
+    let (mesh, mut triangles) = (&scene.meshes[handle], Vec::new());
+    let instances = scene.instances.iter().filter(|instance| instance.mesh == handle);
+    let open = lets_through(scene, mesh, instances.map(|instance| instance.material));
+    let first_face = push_triangles(mesh, &Affine3A::IDENTITY, None, &open, out, &mut triangles);
     let bounds = bounds_of(&triangles);
     let (root, depth) = out.push_tree(triangles)?;
     Ok(MeshTree { root, depth, bounds, first_face })

@@ -27,7 +27,7 @@ fn written(prepared: &Prepared, reference: u32, kept: u32) -> u32 {
 fn scene(triangles: u32, copies: u32, soup: bool) -> Scene {
     let mut scene = Scene::default();
     let surface = Surface::Diffuse { color: Value::Constant(Vec3::splat(0.5)) };
-    let material = scene.materials.add("grey", Material { surface, emission: None });
+    let material = scene.materials.add("grey", Material::new(surface, None));
     let mesh = |count: u32| Mesh {
         positions: (0..count)
             .flat_map(|i| {

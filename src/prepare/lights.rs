@@ -7,7 +7,7 @@ use super::{Bounds, Prepared, alias};
 use crate::layout::{
     LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE, Light, NONE,
 };
-use crate::scene::{self, Emission, Mesh, Scene, ShapeKind, Value};
+use crate::scene::{self, Emission, Handle, Mesh, Scene, ShapeKind, Value};
 use glam::{Affine3A, Vec2, Vec3};
 use std::f64::consts::PI;
 
@@ -108,7 +108,12 @@ fn mean(c: Vec3) -> f64 {
     c.as_dvec3().element_sum() / 3.0
 }
 
-fn surface_light(emission: &Emission, textures: &References, kind: u32) -> (Light, f64) {
+fn surface_light(
+    emission: &Emission,
+    material: Handle<scene::Material>,
+    textures: &References,
+    kind: u32,
+) -> (Light, f64) {
     let (radiance, texture, brightness) = match emission.radiance {
         Value::Constant(c) => (c, NONE, mean(c)),
         Value::Texture(handle) => (Vec3::ONE, textures.reference(handle), textures.mean(handle)),
@@ -119,6 +124,7 @@ fn surface_light(emission: &Emission, textures: &References, kind: u32) -> (Ligh
         radiance: radiance.to_array(),
         texture,
         two_sided: u32::from(emission.two_sided),
+        material: material.index() as u32,
         ..Light::default()
     };
     (light, sides * PI * brightness)
@@ -132,7 +138,7 @@ fn push_shape(scene: &Scene, index: usize, map: &Affine3A, textures: &References
         ShapeKind::Disk { .. } => LIGHT_DISK,
         ShapeKind::Quad { .. } => LIGHT_QUAD,
     };
-    let (mut light, exitance) = surface_light(emission, textures, kind);
+    let (mut light, exitance) = surface_light(emission, shape.material, textures, kind);
     light.position = Vec3::from(map.translation).to_array();
     let m = &map.matrix3;
     let (x, y, z) = (Vec3::from(m.x_axis), Vec3::from(m.y_axis), Vec3::from(m.z_axis));
@@ -175,7 +181,7 @@ fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References,
     for i in 0..mesh.triangles.len() {
         let material = materials.get(i).copied().flatten().unwrap_or(instance.material);
         entries.push(match &scene.materials[material].emission {
-            Some(emission) => triangle(mesh, i, map, emission, textures),
+            Some(emission) => triangle(mesh, i, map, (emission, material), textures),
             None => Entry {
                 light: Light { kind: LIGHT_TRIANGLE, texture: NONE, ..Light::default() },
                 power: Some(0.0),
@@ -184,8 +190,14 @@ fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References,
     }
 }
 
-fn triangle(mesh: &Mesh, index: usize, map: &Affine3A, emission: &Emission, textures: &References) -> Entry {
-    let (mut light, exitance) = surface_light(emission, textures, LIGHT_TRIANGLE);
+fn triangle(
+    mesh: &Mesh,
+    index: usize,
+    map: &Affine3A,
+    (emission, material): (&Emission, Handle<scene::Material>),
+    textures: &References,
+) -> Entry {
+    let (mut light, exitance) = surface_light(emission, material, textures, LIGHT_TRIANGLE);
     let mut corners = mesh.triangles[index];
     let mut default = [Vec2::ZERO, Vec2::X, Vec2::ONE];
     if mirrors(map) {

@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 fn stripes(triangles: u32, parts: u32) -> Scene {
     let mut scene = Scene::default();
     let surface = Surface::Diffuse { color: Value::Constant(Vec3::splat(0.5)) };
-    let dark = scene.materials.add("dark", Material { surface: surface.clone(), emission: None });
+    let dark = scene.materials.add("dark", Material::new(surface.clone(), None));
     let emission = Emission { radiance: Value::Constant(Vec3::ONE), two_sided: false };
-    let bright = scene.materials.add("bright", Material { surface, emission: Some(emission) });
+    let bright = scene.materials.add("bright", Material::new(surface, Some(emission)));
     let each = triangles / parts;
     let part = |i: u32| MeshPart {
         name: String::new(),

@@ -6,6 +6,7 @@ mod alias;
 mod atlas;
 mod bounds;
 pub mod bvh;
+mod details;
 mod environment;
 mod geometry;
 mod lights;
@@ -27,7 +28,7 @@ pub use variant::{Stage, defines, stack_size};
 pub use wide::{Leaves, Tree};
 
 use crate::Result;
-use crate::layout::{EnvironmentCell, Face, Instance, Item, Light, Material, Vertex};
+use crate::layout::{Detail, EnvironmentCell, Face, Instance, Item, Light, Material, Vertex};
 use crate::scene::Scene;
 
 /// Everything that the kernels need of a scene, as plain records in the order of the bindings.
@@ -47,6 +48,8 @@ pub struct Prepared {
     pub instances: Vec<Instance>,
     /// Materials, indexed as in the scene.
     pub materials: Vec<Material>,
+    /// What they do to the surfaces themselves, indexed alike.
+    pub details: Vec<Detail>,
     /// Words of the texture records.
     pub textures: Vec<[u32; 4]>,
     /// Words of the atlas pages.
@@ -92,6 +95,7 @@ impl Prepared {
             size_of_val(self.vertices.as_slice()),
             size_of_val(self.instances.as_slice()),
             size_of_val(self.materials.as_slice()),
+            size_of_val(self.details.as_slice()),
             size_of_val(self.textures.as_slice()),
             size_of_val(self.texels.as_slice()),
             size_of_val(self.lights.as_slice()),
@@ -138,6 +142,10 @@ pub struct Features {
     pub textured_alpha: bool,
     /// An emission that a texture drives.
     pub textured_emission: bool,
+    /// Surfaces that let rays through.
+    pub opacity: bool,
+    /// Surfaces that colour what they let through.
+    pub filter: bool,
     /// Glass that absorbs.
     pub medium: bool,
     /// A texture that depends on the width of a pixel.
@@ -160,6 +168,7 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
     };
     let textures = textures::prepare(scene, &mut out)?;
     materials::prepare(scene, &textures, &mut out);
+    details::prepare(scene, &textures, &mut out);
     let placed = geometry::prepare(scene, &mut out)?;
     let receivers = lights::receivers(scene, &placed);
     let lamps = lights::prepare(scene, &textures, placed, &receivers, &mut out);

@@ -98,9 +98,9 @@ fn point(space: Coordinates) -> &'static str {
     }
 }
 
-/// The file. A shape that is only ever an input of others has no case of its own: on Mesa before 24.3 a case that no lane
+/// The file, with a function for each use of textures and the shapes that it may meet. A shape that is only ever an input of others has no case of its own: on Mesa before 24.3 a case that no lane
 /// takes costs as much as any.
-pub(super) fn glsl(shapes: &[Shape], roots: &[bool]) -> String {
+pub(super) fn glsl(shapes: &[Shape], uses: &[(&str, Vec<bool>)]) -> String {
     let mut text = String::from(
         "// Generated from the textures of the scene.\n#include \"texture/image.glsl\"\n#include \"texture/pattern.glsl\"\n\n",
     );
@@ -108,13 +108,16 @@ pub(super) fn glsl(shapes: &[Shape], roots: &[bool]) -> String {
         let value = shape.expression();
         _ = writeln!(text, "vec4 texture_{i}(uint at, TextureContext context) {{ return {value}; }}");
     }
-    text.push_str(
-        "\nvec4 texture_evaluate(uint reference, TextureContext context)\n{\n    uint at = reference & 0xffffffu;\n    \
-         switch (reference >> 24) {\n",
-    );
-    for (i, _) in roots.iter().enumerate().filter(|(_, root)| **root) {
-        _ = writeln!(text, "    case {i}u: return texture_{i}(at, context);");
+    for (name, roots) in uses {
+        _ = write!(
+            text,
+            "\nvec4 {name}(uint reference, TextureContext context)\n{{\n    uint at = reference & 0xffffffu;\n    \
+             switch (reference >> 24) {{\n",
+        );
+        for (i, _) in roots.iter().enumerate().filter(|(_, root)| **root) {
+            _ = writeln!(text, "    case {i}u: return texture_{i}(at, context);");
+        }
+        text.push_str("    default: return vec4(0.0);\n    }\n}\n");
     }
-    text.push_str("    default: return vec4(0.0);\n    }\n}\n");
     text
 }

@@ -64,19 +64,21 @@ impl References {
 ///
 /// When a texture is made of itself, or they are more than the kernels count.
 pub fn prepare_textures(scene: &Scene, asked: &[Handle<Texture>]) -> Result<PreparedTextures> {
-    let (textures, _) = build(scene, asked.iter().copied().collect())?;
+    let (textures, _) = build(scene, &[("texture_evaluate", asked.iter().copied().collect())])?;
     Ok(textures)
 }
 
 /// Fills `textures`, `texels` and `texture_glsl`.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
-    let (textures, references) = build(scene, direct(scene))?;
+    let (textures, references) = build(scene, &uses(scene))?;
     (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
     Ok(references)
 }
 
-/// `direct` are the textures that are asked for themselves, not only as inputs of others.
-fn build(scene: &Scene, direct: BTreeSet<Handle<Texture>>) -> Result<(PreparedTextures, References)> {
+/// A use of textures: the function of the kernels that gives their values, and those that it is asked for.
+type Use = (&'static str, BTreeSet<Handle<Texture>>);
+
+fn build(scene: &Scene, uses: &[Use]) -> Result<(PreparedTextures, References)> {
     if let Some(handle) = Texture::without_end(&scene.textures) {
         return Err(Error::scene(Texture::endless(scene.textures.name(handle))));
     }
@@ -94,12 +96,16 @@ fn build(scene: &Scene, direct: BTreeSet<Handle<Texture>>) -> Result<(PreparedTe
     let mut builder = Builder { scene, atlas, places, shapes: Vec::new(), words, kept: HashMap::new(), done };
     let mut references = References { references: Vec::new(), ranges: Vec::new() };
     let nodes: Vec<Node> = scene.textures.iter().map(|(handle, ..)| builder.node(handle)).collect();
-    let mut roots = vec![false; builder.shapes.len()];
-    for ((handle, ..), node) in scene.textures.iter().zip(&nodes) {
-        roots[node.shape as usize] |= direct.contains(&handle);
+    for node in &nodes {
         references.references.push(node.shape << 24 | node.at);
         references.ranges.push(node.range);
     }
+    let roots = uses.iter().map(|(name, asked)| {
+        let mut roots = vec![false; builder.shapes.len()];
+        asked.iter().for_each(|handle| roots[nodes[handle.index()].shape as usize] = true);
+        (*name, roots)
+    });
+    let roots: Vec<_> = roots.collect();
     let Builder { atlas, shapes, words, .. } = builder;
     if words.len() >= 1 << 24 || shapes.len() >= 255 {
         let (count, most) = (shapes.len(), 1 << 24);
@@ -118,14 +124,16 @@ fn build(scene: &Scene, direct: BTreeSet<Handle<Texture>>) -> Result<(PreparedTe
     Ok((textures, references))
 }
 
-/// The textures that are asked for themselves: all but those that are only ever inputs of others.
-fn direct(scene: &Scene) -> BTreeSet<Handle<Texture>> {
+/// What a scene asks of its textures. One that is asked for nothing and is no input of another is there to be evaluated.
+fn uses(scene: &Scene) -> [Use; 2] {
+    let materials = || scene.materials.iter().map(|(_, _, material)| material);
+    let opacity: BTreeSet<_> = materials().flat_map(|material| material.detail.opacity.textures()).collect();
     let inputs: BTreeSet<_> = scene.textures.iter().flat_map(|(_, _, texture)| texture.inputs()).collect();
     let mut direct: BTreeSet<_> = scene.textures.iter().map(|(handle, ..)| handle).collect();
-    direct.retain(|handle| !inputs.contains(handle));
-    direct.extend(scene.materials.iter().flat_map(|(_, _, material)| material.textures()));
+    direct.retain(|handle| !inputs.contains(handle) && !opacity.contains(handle));
+    direct.extend(materials().flat_map(|material| material.textures()));
     direct.extend(scene.environment.iter().filter_map(|environment| environment.texture()));
-    direct
+    [("texture_evaluate", direct), ("texture_opacity", opacity)]
 }
 
 /// A texture that has its place: shape, word of its record, its constant value if it has one, and its range.

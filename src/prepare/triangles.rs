@@ -1,17 +1,18 @@
 //! Meshes to records of triangles, with the shading data of their vertices.
 
 use super::Prepared;
-use crate::layout::{Face, NONE, Triangle, Vertex};
+use crate::layout::{Face, NONE, PRIMITIVE_LETS_THROUGH, Triangle, Vertex};
 use crate::scene::{Handle, Material, Mesh};
 use glam::{Affine3A, Mat3A, Vec2, Vec3};
 
 /// The triangles of a mesh as records, with their vertices. Gives the first of their faces, or NONE. `instance` is set for
-/// what is put into world space; a map that mirrors turns the triangles round, so that they stay counter-clockwise from
+/// what is put into world space; `lets_through` says which triangles rays may go through, none when it is empty; a map that mirrors turns the triangles round, so that they stay counter-clockwise from
 /// outside.
 pub(super) fn push_triangles(
     mesh: &Mesh,
     map: &Affine3A,
     instance: Option<u32>,
+    lets_through: &[bool],
     out: &mut Prepared,
     triangles: &mut Vec<Triangle>,
 ) -> u32 {
@@ -40,7 +41,7 @@ pub(super) fn push_triangles(
             b: position(b),
             material: materials.get(i).copied().flatten().map_or(NONE, |material| material.index() as u32),
             c: position(c),
-            primitive: i as u32,
+            primitive: i as u32 | if lets_through.get(i) == Some(&true) { PRIMITIVE_LETS_THROUGH } else { 0 },
         });
     }
     if has_vertices { first_face } else { NONE }

@@ -147,6 +147,8 @@ pub fn defines(
         flag("HAS_INSTANCES", features.instances);
         flag("HAS_SPHERES", features.spheres);
         flag("HAS_DISKS", features.disks);
+        flag("HAS_OPACITY", features.opacity);
+        flag("HAS_FILTER", features.filter);
     }
     if stage == Stage::Shade {
         let material = |kind: u32| features.material_kinds & 1 << kind != 0;

@@ -25,6 +25,7 @@ impl Resident {
         put("instances", bytemuck::cast_slice(&prepared.instances))?;
         put("vertices", bytemuck::cast_slice(&std::mem::take(&mut prepared.vertices)))?;
         put("materials", bytemuck::cast_slice(&prepared.materials))?;
+        put("details", bytemuck::cast_slice(&prepared.details))?;
         put("textures", bytemuck::cast_slice(&prepared.textures))?;
         put("texels", bytemuck::cast_slice(&std::mem::take(&mut prepared.texels)))?;
         put("lights", bytemuck::cast_slice(&prepared.lights))?;

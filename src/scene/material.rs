@@ -1,6 +1,6 @@
 //! Materials: what a surface does with light.
 
-use super::{Handle, Texture, Value};
+use super::{Detail, Handle, Texture, Value};
 use glam::Vec3;
 
 /// How the reflectance of a conductor depends on the angle.
@@ -93,10 +93,17 @@ pub struct Material {
     pub surface: Surface,
     /// What it sends out.
     pub emission: Option<Emission>,
+    /// What it does to the surface itself.
+    pub detail: Detail,
 }
 
 impl Material {
-    /// The textures that drive it.
+    /// A material whose surface is whole and smooth.
+    pub fn new(surface: Surface, emission: Option<Emission>) -> Self {
+        Self { surface, emission, detail: Detail::default() }
+    }
+
+    /// The textures that drive the light of it, not its detail.
     pub fn textures(&self) -> impl Iterator<Item = Handle<Texture>> {
         let surface = match &self.surface {
             Surface::Unlit { color } | Surface::Diffuse { color } => [color.texture(), None, None],

@@ -4,6 +4,7 @@
 //! linear Rec. 709 RGB.
 
 mod camera;
+mod detail;
 mod film;
 mod geometry;
 mod light;
@@ -12,6 +13,7 @@ mod store;
 mod texture;
 
 pub use camera::{Aperture, Camera, FovAxis, Lens};
+pub use detail::{Detail, Opacity};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub use light::{Environment, Light};

@@ -201,7 +201,7 @@ pub trait Build {
 
 impl Build for Scene {
     fn material(&mut self, surface: Surface, emission: Option<Emission>) -> Handle<Material> {
-        self.materials.add("material", Material { surface, emission })
+        self.materials.add("material", Material::new(surface, emission))
     }
     fn shape(&mut self, kind: ShapeKind, material: Handle<Material>) -> &mut Shape {
         let name = format!("shape {}", self.shapes.len());

@@ -11,7 +11,7 @@ fn furnace(rho: f64, depth: u32) -> f64 {
 }
 
 fn glowing(surface: Surface) -> Material {
-    Material { surface, emission: Some(Emission { radiance: grey(1.0), two_sided: true }) }
+    Material::new(surface, Some(Emission { radiance: grey(1.0), two_sided: true }))
 }
 
 #[test]

@@ -18,6 +18,7 @@ mod geometry;
 mod glass;
 mod light;
 mod offset;
+mod opacity;
 mod paths;
 mod planes;
 mod sizes;

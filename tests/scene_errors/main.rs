@@ -1,5 +1,6 @@
 //! Messages of scene errors, as text. Here: TOML itself, `[film]`, `[render]` and `[camera]`.
 
+mod details;
 mod files;
 mod objects;
 

@@ -34,28 +34,28 @@ fn glass_scene() -> Scene {
     let constant = Value::Constant;
     let glass = scene.materials.add(
         "glass",
-        Material {
-            surface: Surface::Dielectric(Dielectric {
+        Material::new(
+            Surface::Dielectric(Dielectric {
                 ior: 1.5,
                 alpha_u: constant(0.0),
                 alpha_v: constant(0.0),
                 absorption: Vec3::new(0.1, 0.3, 0.6),
                 thin: false,
             }),
-            emission: None,
-        },
+            None,
+        ),
     );
     let metal = scene.materials.add(
         "metal",
-        Material {
-            surface: Surface::Conductor(Conductor {
+        Material::new(
+            Surface::Conductor(Conductor {
                 reflectance: Value::Constant(Vec3::new(0.9, 0.8, 0.6)),
                 fresnel: Fresnel::Exact,
                 alpha_u: constant(0.15),
                 alpha_v: constant(0.15),
             }),
-            emission: None,
-        },
+            None,
+        ),
     );
     let clay = diffuse(&mut scene, "clay", Vec3::new(0.3, 0.5, 0.6));
     for i in 0..5 {
@@ -114,13 +114,10 @@ fn room(max_depth: u32) -> Scene {
     let ground = diffuse(&mut scene, "ground", Vec3::splat(0.5));
     let lamp = scene.materials.add(
         "lamp",
-        Material {
-            surface: Surface::Diffuse { color: Value::Constant(Vec3::ZERO) },
-            emission: Some(Emission {
-                radiance: Value::Constant(Vec3::new(12.0, 12.0, 11.0)),
-                two_sided: false,
-            }),
-        },
+        Material::new(
+            Surface::Diffuse { color: Value::Constant(Vec3::ZERO) },
+            Some(Emission { radiance: Value::Constant(Vec3::new(12.0, 12.0, 11.0)), two_sided: false }),
+        ),
     );
     let quad = |origin, edge_u, edge_v| ShapeKind::Quad { origin, edge_u, edge_v };
     let floor = quad(Vec3::new(-8.0, -1.25, 8.0), Vec3::X * 16.0, Vec3::NEG_Z * 16.0);
@@ -135,5 +132,5 @@ fn shape(kind: ShapeKind, material: Handle<Material>) -> Shape {
 
 fn diffuse(scene: &mut Scene, name: &str, color: Vec3) -> Handle<Material> {
     let surface = Surface::Diffuse { color: Value::Constant(color) };
-    scene.materials.add(name, Material { surface, emission: None })
+    scene.materials.add(name, Material::new(surface, None))
 }

@@ -95,7 +95,7 @@ pub(super) const TEXTURE: Kinds = Kinds {
 };
 
 pub(super) const MATERIAL: Kinds = Kinds {
-    common: &["kind", "emission", "emission_scale", "two_sided"],
+    common: &["kind", "emission", "emission_scale", "two_sided", "opacity", "opacity_cutoff", "filter_color"],
     kinds: &[
         ("unlit", &["color"]),
         ("diffuse", &["color"]),

@@ -45,7 +45,7 @@ impl Reader<'_> {
         let kind = geometry(view, kind)?;
         let world_from_object = placed(view)?;
         let surface = Surface::Diffuse { color: Value::Constant(Vec3::ZERO) };
-        let material = self.scene.materials.add(name.as_str(), Material { surface, emission });
+        let material = self.scene.materials.add(name.as_str(), Material::new(surface, emission));
         self.scene.shapes.push(Shape { name, kind, material, world_from_object });
         Ok(())
     }

@@ -46,7 +46,8 @@ impl Reader<'_> {
             _ => Surface::Diffuse { color: self.color_or(&view, "color", 0.5, REFLECTANCE)? },
         };
         let emission = self.emission(&view, &entry.key)?;
-        let handle = self.scene.materials.add(&entry.key, Material { surface, emission });
+        let detail = self.detail(&view)?;
+        let handle = self.scene.materials.add(&entry.key, Material { surface, emission, detail });
         self.materials.add(&entry.key, entry.spot, handle);
         Ok(())
     }

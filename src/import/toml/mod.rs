@@ -5,6 +5,7 @@
 
 mod assets;
 mod camera;
+mod detail;
 mod document;
 mod film;
 mod include;

@@ -235,6 +235,10 @@ fn materials_take_every_key() {
         material("chalk").emission.as_ref().unwrap().radiance,
         Value::Constant(Vec3::new(2.0, 4.0, 6.0))
     );
+    let opacity = &material("chalk").detail.opacity;
+    assert_eq!((opacity.value, opacity.cutoff), (Value::Texture(texture("plain")), Some(0.75)));
+    assert_eq!(opacity.filter, Value::Constant(Vec3::new(1.0, 0.5, 0.25)));
+    assert!(material("paint").detail.opacity.is_whole());
     assert_eq!(
         material("paint").surface,
         Surface::Phong {
