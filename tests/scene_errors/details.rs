@@ -9,6 +9,6 @@ fn opacity() {
             "[material.m]\nkind = 'diffuse'\nfilter_color = 0.5",
             "3:16: `filter_color` needs `opacity`; add `opacity`",
         ),
-        ("[material.m]\nkind = 'diffuse'\nopacity = 2", "3:11: `opacity` is 2, must be 0 to 1"),
+        ("[material.m]\nkind = 'diffuse'\nopacity = 2", "3:11: `opacity` is 2, must be from 0 to 1"),
     ]);
 }

@@ -1,7 +1,7 @@
 //! The generated file `generated/textures.glsl`: a function for each shape of texture tree that a scene has.
 
-use super::atlas::Format;
 use crate::layout::{NoiseSum as NoiseRecord, Pattern, Ramp, Record as _, TextureInput};
+use crate::prepare::atlas::Format;
 use crate::scene::{Coordinates, Gradient, Metric, NoiseSum, WorleyFeature};
 use std::fmt::Write as _;
 
@@ -98,8 +98,8 @@ fn point(space: Coordinates) -> &'static str {
     }
 }
 
-/// The file, with a function for each use of textures and the shapes that it may meet. A shape that is only ever an input of others has no case of its own: on Mesa before 24.3 a case that no lane
-/// takes costs as much as any.
+/// The file, with a function for each use of textures and the shapes that it may meet. A shape that is only ever an input of
+/// others has no case: on Mesa before 24.3 a case that no lane takes costs as much as any.
 pub(super) fn glsl(shapes: &[Shape], uses: &[(&str, Vec<bool>)]) -> String {
     let mut text = String::from(
         "// Generated from the textures of the scene.\n#include \"texture/image.glsl\"\n#include \"texture/pattern.glsl\"\n\n",

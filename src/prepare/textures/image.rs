@@ -1,10 +1,10 @@
 //! Image textures: their record, and how bright they are.
 
-use super::atlas::Reader;
-use super::textures::Range;
+use super::range::Range;
 use crate::layout::{CHANNEL_A, CHANNEL_B, CHANNEL_G, CHANNEL_R, CHANNEL_RGB, CHANNEL_SHIFT};
 use crate::layout::{FLAG_INVERT, FLAG_NEAREST, ImageTexture};
 use crate::layout::{WRAP_BLACK, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT, WRAP_V_SHIFT};
+use crate::prepare::atlas::Reader;
 use crate::scene::{self, Channel, TexelFilter, Wrap};
 
 /// Mean brightness over the picture, for the power of a light; and its largest value, for the unit of the sums.

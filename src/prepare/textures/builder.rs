@@ -1,0 +1,184 @@
+//! A texture tree, node by node: shapes and records.
+
+use super::glsl::{Input, Shape};
+use super::image::{brightness, record};
+use super::range::{Range, mean};
+use crate::layout::TextureInput;
+use crate::prepare::atlas::{Atlas, Place};
+use crate::scene::{Handle, Scene, Texture, Value};
+use glam::Vec3;
+use std::collections::{BTreeMap, HashMap};
+
+/// A texture that has its place: shape, word of its record, its constant value if it has one, and its range.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Node {
+    pub shape: u32,
+    pub at: u32,
+    pub constant: Option<Vec3>,
+    pub range: Range,
+}
+
+pub(super) struct Builder<'a> {
+    pub scene: &'a Scene,
+    pub atlas: Atlas,
+    pub places: BTreeMap<Handle<Texture>, Place>,
+    pub shapes: Vec<Shape>,
+    pub words: Vec<[u32; 4]>,
+    /// Records by shape and words: equal trees are one.
+    pub kept: HashMap<(u32, Vec<[u32; 4]>), u32>,
+    pub done: Vec<Option<Node>>,
+}
+
+/// A record under construction.
+#[derive(Default)]
+pub(super) struct Words(pub Vec<[u32; 4]>);
+
+impl Words {
+    pub(super) fn push<T: crate::layout::Record>(&mut self, record: T) {
+        self.0.extend_from_slice(bytemuck::cast_slice(std::slice::from_ref(&record)));
+    }
+}
+
+impl Builder<'_> {
+    /// The node of a texture. Trees are known to be no deeper than [`Texture::DEEPEST`].
+    pub(super) fn node(&mut self, handle: Handle<Texture>) -> Node {
+        if let Some(node) = self.done[handle.index()] {
+            return node;
+        }
+        let node = self.build(handle);
+        self.done[handle.index()] = Some(node);
+        node
+    }
+
+    pub(super) fn build(&mut self, handle: Handle<Texture>) -> Node {
+        let scene = self.scene;
+        match &scene.textures[handle] {
+            Texture::Constant(color) => self.constant(*color),
+            Texture::Image(texture) => {
+                let place = self.places[&handle];
+                let image = &scene.images[texture.image];
+                let mut words = Words::default();
+                words.push(record(texture, image, self.atlas.address(place)));
+                self.keep(Shape::Image(place.format), words, None, brightness(texture, image))
+            }
+            Texture::Checker { even, odd, space } => {
+                let shape = |inputs| Shape::Checker(space.coordinates, inputs);
+                self.pattern(space, [even, odd], 0.5, Words::default(), shape)
+            }
+            Texture::Gradient { shape, low, high, space } => {
+                let shape = |inputs| Shape::Gradient(*shape, space.coordinates, inputs);
+                self.pattern(space, [low, high], 0.5, Words::default(), shape)
+            }
+            Texture::Worley { feature, metric, low, high, space } => {
+                let shape = |inputs| Shape::Worley(*feature, *metric, space.coordinates, inputs);
+                self.pattern(space, [low, high], 0.5, Words::default(), shape)
+            }
+            Texture::Ramp { value, stops, smooth } => self.ramp(*value, stops, *smooth),
+            Texture::Noise(noise) => self.noise(noise),
+            Texture::Mix { a, b, amount } => {
+                let [a, b, t] = [self.input(a), self.input(b), self.number(*amount)];
+                let share = t.range.mean.clamp(0.0, 1.0);
+                if let (Some(x), Some(y), Some(t)) = (a.constant, b.constant, t.constant) {
+                    return self.constant(x.lerp(y, mean(t).clamp(0.0, 1.0)));
+                }
+                let shape = Shape::Mix([a.input(), b.input(), t.input()]);
+                self.join(shape, Words::default(), &[a, b, t], a.range.mixed(b.range, share))
+            }
+            Texture::Add { a, b } => {
+                let [a, b] = [self.input(a), self.input(b)];
+                if let (Some(x), Some(y)) = (a.constant, b.constant) {
+                    return self.constant(x + y);
+                }
+                let sum = |a: f64, b: f64| a + b;
+                let range = a.range.zip(b.range, sum, sum, sum);
+                self.join(Shape::Add([a.input(), b.input()]), Words::default(), &[a, b], range)
+            }
+            Texture::Multiply { a, b } => {
+                let [a, b] = [self.input(a), self.input(b)];
+                if let (Some(x), Some(y)) = (a.constant, b.constant) {
+                    return self.constant(x * y);
+                }
+                let ends = [
+                    a.range.min * b.range.min,
+                    a.range.min * b.range.max,
+                    a.range.max * b.range.min,
+                    a.range.max * b.range.max,
+                ];
+                let range = Range {
+                    min: ends.into_iter().fold(f64::INFINITY, f64::min),
+                    mean: a.range.mean * b.range.mean,
+                    max: ends.into_iter().fold(f64::NEG_INFINITY, f64::max),
+                };
+                self.join(Shape::Multiply([a.input(), b.input()]), Words::default(), &[a, b], range)
+            }
+            Texture::Invert { value } => {
+                let a = self.input(value);
+                if let Some(value) = a.constant {
+                    return self.constant(Vec3::ONE - value);
+                }
+                let Range { min, mean, max } = a.range;
+                let range = Range { min: 1.0 - max, mean: 1.0 - mean, max: 1.0 - min };
+                self.join(Shape::Invert([a.input()]), Words::default(), &[a], range)
+            }
+        }
+    }
+
+    /// The node of an input.
+    pub(super) fn input(&mut self, value: &Value<Vec3>) -> Node {
+        match value {
+            Value::Constant(color) => {
+                Node { shape: 0, at: 0, constant: Some(*color), range: Range::of(*color) }
+            }
+            Value::Texture(handle) => self.node(*handle),
+        }
+    }
+
+    pub(super) fn number(&mut self, value: Value<f32>) -> Node {
+        match value {
+            Value::Constant(number) => self.input(&Value::Constant(Vec3::splat(number))),
+            Value::Texture(handle) => self.input(&Value::Texture(handle)),
+        }
+    }
+
+    /// A node that is the same everywhere.
+    pub(super) fn constant(&mut self, color: Vec3) -> Node {
+        let mut words = Words::default();
+        words.push(TextureInput { value: color.to_array(), at: 0 });
+        self.keep(Shape::Constant, words, Some(color), Range::of(color))
+    }
+
+    /// A node with its inputs after its own words.
+    pub(super) fn join(&mut self, shape: Shape, mut words: Words, inputs: &[Node], range: Range) -> Node {
+        for input in inputs {
+            words.push(input.record());
+        }
+        self.keep(shape, words, None, range)
+    }
+
+    pub(super) fn keep(&mut self, shape: Shape, words: Words, constant: Option<Vec3>, range: Range) -> Node {
+        let known = self.shapes.iter().position(|other| *other == shape);
+        let shape = known.unwrap_or_else(|| {
+            self.shapes.push(shape);
+            self.shapes.len() - 1
+        }) as u32;
+        let next = self.words.len() as u32;
+        let at = *self.kept.entry((shape, words.0)).or_insert_with_key(|(_, words)| {
+            self.words.extend_from_slice(words);
+            next
+        });
+        Node { shape, at, constant, range }
+    }
+}
+
+impl Node {
+    pub(super) fn record(&self) -> TextureInput {
+        match self.constant {
+            Some(color) => TextureInput { value: color.to_array(), at: 0 },
+            None => TextureInput { value: [0.0; 3], at: self.at },
+        }
+    }
+
+    pub(super) fn input(&self) -> Input {
+        if self.constant.is_some() { Input::Constant } else { Input::Texture(self.shape) }
+    }
+}

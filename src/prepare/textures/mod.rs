@@ -1,0 +1,135 @@
+//! Texture trees to GLSL and records.
+//!
+//! A texture is named in the kernels by a reference: the shape of its tree in the upper 8 bits, the word of its record in
+//! the lower 24. Textures of one shape share one generated function; what differs between them is read from their records,
+//! so that changing a number compiles nothing. Trees of constants are folded, and equal trees have one record.
+
+mod builder;
+mod glsl;
+mod image;
+mod noise;
+mod pattern;
+mod range;
+
+use super::atlas::Atlas;
+use super::{Prepared, rows};
+use crate::scene::{Handle, Scene, Texture};
+use crate::{Error, Result};
+use builder::{Builder, Node};
+use glsl::glsl;
+use range::Range;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// The textures of a scene as kernels read them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreparedTextures {
+    /// Words of the records.
+    pub records: Vec<[u32; 4]>,
+    /// Words of the atlas pages.
+    pub texels: Vec<[u32; 4]>,
+    /// The virtual file `generated/textures.glsl`.
+    pub glsl: String,
+    /// The reference of each texture, by its handle.
+    pub references: Vec<u32>,
+}
+
+/// References of the textures of a scene, and how bright they are.
+pub(super) struct References {
+    references: Vec<u32>,
+    ranges: Vec<Range>,
+}
+
+impl References {
+    /// The reference of a texture.
+    pub(super) fn reference(&self, handle: Handle<Texture>) -> u32 {
+        self.references[handle.index()]
+    }
+
+    /// Mean of its values: over the picture, or over space.
+    pub(super) fn mean(&self, handle: Handle<Texture>) -> f64 {
+        self.ranges[handle.index()].mean
+    }
+
+    /// A bound of its values.
+    pub(super) fn max(&self, handle: Handle<Texture>) -> f32 {
+        self.ranges[handle.index()].max as f32
+    }
+}
+
+/// Prepares the textures of a scene and nothing else, to ask for the values of some of them.
+///
+/// # Errors
+///
+/// When a texture is made of itself, or they are more than the kernels count.
+pub fn prepare_textures(scene: &Scene, asked: &[Handle<Texture>]) -> Result<PreparedTextures> {
+    let (textures, _) = build(scene, &[("texture_evaluate", asked.iter().copied().collect())])?;
+    Ok(textures)
+}
+
+/// Fills `textures`, `texels` and `texture_glsl`.
+pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
+    let (textures, references) = build(scene, &uses(scene))?;
+    (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
+    Ok(references)
+}
+
+/// A use of textures: the function of the kernels that gives their values, and those that it is asked for.
+type Use = (&'static str, BTreeSet<Handle<Texture>>);
+
+fn build(scene: &Scene, uses: &[Use]) -> Result<(PreparedTextures, References)> {
+    if let Some(handle) = Texture::without_end(&scene.textures) {
+        return Err(Error::scene(Texture::endless(scene.textures.name(handle))));
+    }
+    let mut atlas = Atlas::default();
+    let mut places = BTreeMap::new();
+    for (handle, _, texture) in scene.textures.iter() {
+        if let Texture::Image(texture) = texture {
+            places.insert(handle, atlas.place(scene, texture)?);
+        }
+    }
+    let has_noise = scene.textures.iter().any(|(_, _, texture)| matches!(texture, Texture::Noise(_)));
+    // The kernels look for it at the start
+    let words = if has_noise { noise::words().collect() } else { Vec::new() };
+    let done = vec![None; scene.textures.len()];
+    let mut builder = Builder { scene, atlas, places, shapes: Vec::new(), words, kept: HashMap::new(), done };
+    let mut references = References { references: Vec::new(), ranges: Vec::new() };
+    let nodes: Vec<Node> = scene.textures.iter().map(|(handle, ..)| builder.node(handle)).collect();
+    for node in &nodes {
+        references.references.push(node.shape << 24 | node.at);
+        references.ranges.push(node.range);
+    }
+    let roots = uses.iter().map(|(name, asked)| {
+        let mut roots = vec![false; builder.shapes.len()];
+        asked.iter().for_each(|handle| roots[nodes[handle.index()].shape as usize] = true);
+        (*name, roots)
+    });
+    let roots: Vec<_> = roots.collect();
+    let Builder { atlas, shapes, words, .. } = builder;
+    if words.len() >= 1 << 24 || shapes.len() >= 255 {
+        let (count, most) = (shapes.len(), 1 << 24);
+        return Err(Error::scene(format!(
+            "textures have {count} shapes and {} words of records",
+            words.len()
+        ))
+        .help(format!("there may be 254 shapes and {most} words: use fewer textures")));
+    }
+    let textures = PreparedTextures {
+        records: words,
+        texels: atlas.into_words(),
+        glsl: glsl(&shapes, &roots),
+        references: references.references.clone(),
+    };
+    Ok((textures, references))
+}
+
+/// What a scene asks of its textures. One that is asked for nothing and is no input of another is there to be evaluated.
+fn uses(scene: &Scene) -> [Use; 2] {
+    let materials = || scene.materials.iter().map(|(_, _, material)| material);
+    let opacity: BTreeSet<_> = materials().flat_map(|material| material.detail.opacity.textures()).collect();
+    let inputs: BTreeSet<_> = scene.textures.iter().flat_map(|(_, _, texture)| texture.inputs()).collect();
+    let mut direct: BTreeSet<_> = scene.textures.iter().map(|(handle, ..)| handle).collect();
+    direct.retain(|handle| !inputs.contains(handle) && !opacity.contains(handle));
+    direct.extend(materials().flat_map(|material| material.textures()));
+    direct.extend(scene.environment.iter().filter_map(|environment| environment.texture()));
+    [("texture_evaluate", direct), ("texture_opacity", opacity)]
+}

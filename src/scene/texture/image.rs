@@ -1,0 +1,118 @@
+//! Pictures, and how they lie on surfaces.
+
+use crate::scene::Handle;
+use glam::{Affine2, Mat2, Vec2};
+
+/// How a value between texels is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TexelFilter {
+    /// The texel that holds the point.
+    Nearest,
+    /// Bilinear between the four texels around the point; texel centres are at (i + ½) / n.
+    Bilinear,
+}
+
+/// What lies outside [0, 1) of a texture coordinate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    /// The picture again.
+    Repeat,
+    /// The texel at the edge.
+    Clamp,
+    /// The picture and its mirror image in turn.
+    Mirror,
+    /// Zero, also in alpha.
+    Black,
+}
+
+/// How stored numbers become linear light. Alpha is always linear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ColorSpace {
+    /// IEC 61966-2-1.
+    Srgb,
+    /// As they are.
+    Linear,
+}
+
+/// Which channel of a picture a texture gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Channel {
+    /// The colour.
+    Rgb,
+    /// Red, as grey.
+    R,
+    /// Green, as grey.
+    G,
+    /// Blue, as grey.
+    B,
+    /// Alpha, as grey.
+    A,
+}
+
+/// Scale, then rotation, then offset of texture coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UvTransform {
+    /// Factors on u and v.
+    pub scale: Vec2,
+    /// Counter-clockwise rotation about (0, 0) in degrees.
+    pub rotate: f32,
+    /// Added last.
+    pub offset: Vec2,
+}
+
+impl Default for UvTransform {
+    fn default() -> Self {
+        Self { scale: Vec2::ONE, rotate: 0.0, offset: Vec2::ZERO }
+    }
+}
+
+impl UvTransform {
+    /// The same as a matrix.
+    pub fn matrix(&self) -> Affine2 {
+        let linear = Mat2::from_angle(self.rotate.to_radians()) * Mat2::from_diagonal(self.scale);
+        Affine2::from_mat2_translation(linear, self.offset)
+    }
+}
+
+/// A picture on a surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImageTexture {
+    /// The picture.
+    pub image: Handle<Image>,
+    /// Between texels.
+    pub filter: TexelFilter,
+    /// Outside the picture, along u and v.
+    pub wrap: [Wrap; 2],
+    /// From the uv of the surface to the uv of the picture.
+    pub uv: UvTransform,
+    /// How the stored numbers are meant.
+    pub color_space: ColorSpace,
+    /// The channel that is given.
+    pub channel: Channel,
+    /// Factor on the value, after `invert`.
+    pub scale: f32,
+    /// Give 1 − value.
+    pub invert: bool,
+}
+
+/// Texels as they were stored, row 0 on top. Grey is repeated in R, G, B; missing alpha is opaque.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Texels {
+    /// 8 bits a channel.
+    Rgba8(Vec<[u8; 4]>),
+    /// 16 bits a channel.
+    Rgba16(Vec<[u16; 4]>),
+    /// 32-bit floats.
+    RgbaF32(Vec<[f32; 4]>),
+}
+
+/// A picture in memory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// `width · height` texels, row by row from the top.
+    pub texels: Texels,
+}
