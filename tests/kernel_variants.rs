@@ -10,8 +10,8 @@ use dapple::render;
 use dapple::scene::{
     Aperture, Channel, ColorSpace, Conductor, Coordinates, Dielectric, Emission, Environment, FilterKind,
     Fresnel, Gradient, Handle, Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Metric,
-    Noise, NoiseSum, Opacity, PatternSpace, Sampler, Scene, Shape, ShapeKind, Surface, TexelFilter, Texels,
-    Texture, UvTransform, Value, WorleyFeature, Wrap,
+    Noise, NoiseSum, Opacity, PatternSpace, Roughness, Sampler, Scene, Shape, ShapeKind, Surface,
+    TexelFilter, Texels, Texture, UvTransform, Value, WorleyFeature, Wrap,
 };
 use dapple::shader::{BindingClass, Compiler, Reflection, Spirv, reflect, scan, translates_to_wgsl};
 use glam::{Affine3A, Mat3, Vec3};
@@ -27,14 +27,9 @@ fn diffuse(color: f32) -> Surface {
 }
 
 fn glass(ior: f32, alpha: [f32; 2], absorption: f32) -> Surface {
-    let [alpha_u, alpha_v] = alpha.map(Value::Constant);
-    Surface::Dielectric(Dielectric {
-        ior,
-        alpha_u,
-        alpha_v,
-        absorption: Vec3::splat(absorption),
-        thin: false,
-    })
+    let [u, v] = alpha.map(Value::Constant);
+    let (ior, roughness) = (Value::Constant(ior), Roughness::alphas(u, v));
+    Surface::Dielectric(Dielectric { ior, roughness, absorption: Vec3::splat(absorption), thin: false })
 }
 
 fn material(scene: &mut Scene, surface: Surface, light: Option<Value<Vec3>>) -> Handle<Material> {
@@ -126,8 +121,8 @@ fn shapes() -> Scene {
 
 fn lobes() -> Scene {
     let mut scene = Scene::default();
-    let [alpha_u, alpha_v] = [0.1, 0.4].map(Value::Constant);
-    let metal = Conductor { reflectance: constant(0.9), fresnel: Fresnel::Schlick, alpha_u, alpha_v };
+    let roughness = Roughness::alphas(Value::Constant(0.1), Value::Constant(0.4));
+    let metal = Conductor { reflectance: constant(0.9), fresnel: Fresnel::Schlick, roughness };
     let phong =
         Surface::Phong { diffuse: constant(0.4), specular: constant(0.4), exponent: Value::Constant(30.0) };
     let surfaces =
@@ -196,10 +191,18 @@ fn textured() -> Scene {
     let metal = Conductor {
         reflectance: Value::Texture(srgb),
         fresnel: Fresnel::Exact,
-        alpha_u: Value::Texture(linear),
-        alpha_v: Value::Texture(linear),
+        roughness: Roughness { u: Value::Texture(linear), v: Value::Constant(0.5), squared: true },
     };
     let metal = material(&mut scene, Surface::Conductor(metal), None);
+    let index = Fresnel::Index { eta: Value::Texture(srgb), k: Value::Texture(half) };
+    let roughness = Roughness::alpha(0.1);
+    let gold = Conductor { reflectance: constant(1.0), fresnel: index, roughness };
+    let gold = material(&mut scene, Surface::Conductor(gold), None);
+    place_shape(&mut scene, gold, sphere());
+    let ior = Value::Texture(float);
+    let glass = Dielectric { ior, roughness, absorption: Vec3::ONE, thin: false };
+    let glass = material(&mut scene, Surface::Dielectric(glass), None);
+    place_shape(&mut scene, glass, sphere());
     place_triangle(&mut scene, lamp, 1);
     place_triangle(&mut scene, phong, 2);
     place_shape(&mut scene, metal, disk());

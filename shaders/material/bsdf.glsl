@@ -24,7 +24,9 @@ struct BsdfSample {
 const BsdfSample BSDF_ABSORBED = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, 1.0, false);
 
 // Rougher than this is a microfacet lobe, smoother a mirror (as in pbrt-v4).
-bool bsdf_is_smooth(Bsdf b) { return max(b.alpha.x, b.alpha.y) < 1e-3; }
+const float BSDF_SMOOTH = 1e-3;
+
+bool bsdf_is_smooth(Bsdf b) { return max(b.alpha.x, b.alpha.y) < BSDF_SMOOTH; }
 
 bool bsdf_is_specular(Bsdf b)
 {

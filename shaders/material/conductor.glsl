@@ -1,16 +1,34 @@
-// Metal: a mirror, or GGX microfacets.
+// Metal: a mirror, or GGX microfacets. HAS_METAL_INDEX switches metal by its index of refraction on.
 #include "material/bsdf.glsl"
 #include "material/fresnel.glsl"
 #include "material/ggx.glsl"
+
+#ifdef HAS_METAL_INDEX
+// Metal by its index of refraction: what it reflects head-on is its colour for those who want one.
+void conductor_index(inout Bsdf b)
+{
+    b.specular = clamp(b.specular, 0.01, 100.0);
+    b.k = min(b.k, vec3(100.0));
+    vec3 below = b.specular - 1.0;
+    vec3 above = b.specular + 1.0;
+    b.color = (below * below + b.k * b.k) / (above * above + b.k * b.k);
+}
+#endif
 
 vec3 conductor_fresnel(Bsdf b, float cos_i)
 {
     if (b.mode == FRESNEL_NONE) return b.color;
     if (b.mode == FRESNEL_SCHLICK) return fresnel_schlick(cos_i, b.color);
-    vec3 eta = b.mode == FRESNEL_INDEX ? b.specular : vec3(1.0);
     // With η = 1, R = k² / (4 + k²) at normal incidence.
     vec3 r = clamp(b.color, 0.0, 0.9999);
-    vec3 k = b.mode == FRESNEL_INDEX ? b.k : 2.0 * sqrt(r) / sqrt(1.0 - r);
+    vec3 eta = vec3(1.0);
+    vec3 k = 2.0 * sqrt(r) / sqrt(1.0 - r);
+#ifdef HAS_METAL_INDEX
+    if (b.mode == FRESNEL_INDEX) {
+        eta = b.specular;
+        k = b.k;
+    }
+#endif
     return fresnel_conductor(cos_i, eta, k);
 }
 

@@ -1,61 +1,57 @@
 // The menu of materials: record and textures to a Bsdf, and one switch a verb. Kinds that the scene does not use are
-// left out by switches of the variant: HAS_DIFFUSE, HAS_PHONG, HAS_CONDUCTOR, HAS_DIELECTRIC.
-#include "shared/bindings.glsl"
+// left out by switches of the variant: HAS_DIFFUSE, HAS_PHONG, HAS_CONDUCTOR, HAS_DIELECTRIC. ANISOTROPIC says that some
+// roughness has two widths.
 #include "material/diffuse.glsl"
 #include "material/phong.glsl"
 #include "material/conductor.glsl"
 #include "material/dielectric.glsl"
-#include "texture/context.glsl"
-#include "generated/textures.glsl"
+#include "material/input.glsl"
 
-Material material_fetch(uint i)
-{
-    uint w = i * MATERIAL_WORDS;
-    return material_unpack(fetch_materials(w), fetch_materials(w + 1u), fetch_materials(w + 2u), fetch_materials(w + 3u),
-                           fetch_materials(w + 4u), fetch_materials(w + 5u), fetch_materials(w + 6u));
-}
+vec3 material_emission(Material m, TextureContext context) { return material_color(m, INPUT_EMISSION, context); }
 
-// A colour or number that a texture may drive.
-vec3 textured_color(vec3 constant, uint texture_reference, TextureContext context)
+// GGX widths. What is rougher in one direction than smooth is just rough in the other, as a lobe that is smooth in one direction
+// only has no density.
+vec2 material_alpha(Material m, TextureContext context)
 {
-    return texture_reference == NONE ? constant : max(texture_evaluate(texture_reference, context).rgb, vec3(0.0));
-}
-
-float textured_number(float constant, uint texture_reference, TextureContext context)
-{
-    return texture_reference == NONE ? constant : max(mean_component(texture_evaluate(texture_reference, context).rgb), 0.0);
-}
-
-vec3 material_emission(Material m, TextureContext context)
-{
-#ifdef TEXTURED_EMISSION
-    return textured_color(vec3(1.0), m.emission_texture, context) * m.emission;
-#else
-    return m.emission;
+    vec2 alpha = material_numbers(m, INPUT_ROUGHNESS, context);
+#ifndef ANISOTROPIC
+    alpha = alpha.xx;
 #endif
+    if (input_textured(INPUT_ROUGHNESS, 0u) || input_textured(INPUT_ROUGHNESS, 1u)) {
+        alpha = min(alpha, vec2(1.0));
+        if ((m.flags & MATERIAL_SQUARED) != 0u) alpha *= alpha;
+    }
+    return max(alpha.x, alpha.y) < BSDF_SMOOTH ? alpha : max(alpha, 1e-4);
+}
+
+// The number that kinds call by other names: index of refraction, exponent.
+float material_index(Material m, TextureContext context)
+{
+    float index = material_numbers(m, INPUT_INDEX, context).x;
+    // What a texture says is kept where the kinds can take it
+    if (m.kind == MATERIAL_DIELECTRIC && input_textured(INPUT_INDEX, 0u)) index = clamp(index, 0.01, 100.0);
+    return index;
 }
 
 Bsdf material_bsdf(Material m, TextureContext context)
 {
-    Bsdf b = Bsdf(m.kind, m.mode, m.color, m.specular, m.k, m.ior, m.exponent, vec2(m.alpha_u, m.alpha_v));
-#ifdef TEXTURED_COLOR
-    b.color = textured_color(m.color, m.color_texture, context);
-    if (m.kind != MATERIAL_UNLIT) b.color = clamp(b.color, 0.0, 1.0);
-#endif
-#ifdef TEXTURED_SPECULAR
-    b.specular = textured_color(m.specular, m.specular_texture, context);
-#endif
-#ifdef TEXTURED_EXPONENT
-    b.exponent = max(textured_number(m.exponent, m.exponent_texture, context), 0.0);
-#endif
-#ifdef TEXTURED_ALPHA
-    b.alpha.x = clamp(textured_number(m.alpha_u, m.alpha_u_texture, context), 0.0, 1.0);
-    b.alpha.y = clamp(textured_number(m.alpha_v, m.alpha_v_texture, context), 0.0, 1.0);
-#endif
+    Bsdf b;
+    b.kind = m.kind;
+    b.mode = m.mode;
+    b.color = material_color(m, INPUT_COLOR, context);
+    if (m.kind != MATERIAL_UNLIT && input_textured(INPUT_COLOR, 0u)) b.color = min(b.color, vec3(1.0));
+    b.specular = material_color(m, INPUT_SPECULAR, context);
+    b.alpha = material_alpha(m, context);
+    b.ior = material_index(m, context);
+    b.exponent = b.ior;
+#ifdef HAS_DIELECTRIC
     // Glass that bends nothing has no half vectors, whatever its roughness.
-    if (m.kind == MATERIAL_DIELECTRIC && abs(m.ior - 1.0) < 1e-4) b.alpha = vec2(0.0);
-    // A lobe that is smooth in one direction only has no density: keep it just rough.
-    if (!bsdf_is_smooth(b)) b.alpha = max(b.alpha, 1e-4);
+    if (m.kind == MATERIAL_DIELECTRIC && abs(b.ior - 1.0) < 1e-4) b.alpha = vec2(0.0);
+#endif
+#ifdef HAS_METAL_INDEX
+    b.k = material_color(m, INPUT_ABSORPTION, context);
+    if (m.kind == MATERIAL_CONDUCTOR && m.mode == FRESNEL_INDEX) conductor_index(b);
+#endif
 #ifdef HAS_PHONG
     if (m.kind == MATERIAL_PHONG) phong_normalise(b);
 #endif

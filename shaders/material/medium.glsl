@@ -1,10 +1,15 @@
 // What fills the inside of glass: a path carries the material that it is inside of, or NONE.
 #include "material/material.glsl"
 
+vec3 medium_absorption(uint medium)
+{
+    return color_input_unpack(fetch_materials(medium * MATERIAL_WORDS + INPUT_ABSORPTION)).value;
+}
+
 // Beer's law along a way in the glass of a material, or in none.
 vec3 medium_transmittance(uint medium, float way)
 {
-    return medium == NONE ? vec3(1.0) : exp(-material_fetch(medium).specular * way);
+    return medium == NONE ? vec3(1.0) : exp(-medium_absorption(medium) * way);
 }
 
 // The medium behind a boundary of glass, for a direction through it; `side` is its cosine with the geometric normal.

@@ -53,6 +53,15 @@ const uint MATERIAL_DIFFUSE = 1u; // Material kind: Lambertian.
 const uint MATERIAL_PHONG = 2u; // Material kind: modified Phong.
 const uint MATERIAL_CONDUCTOR = 3u; // Material kind: mirror or GGX metal.
 const uint MATERIAL_DIELECTRIC = 4u; // Material kind: smooth or GGX glass.
+const uint MATERIAL_WORDS = 8u; // Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
+const uint MATERIAL_TWO_SIDED = 1u; // Material flag: it sends light out on both sides.
+const uint MATERIAL_SQUARED = 2u; // Material flag: what its roughness inputs give are roughnesses, to be squared.
+const uint INPUT_EMISSION = 1u; // ColorInput of all materials: radiance sent out.
+const uint INPUT_COLOR = 2u; // ColorInput: radiance, reflectance or diffuse coefficient.
+const uint INPUT_ROUGHNESS = 3u; // NumberInputs: GGX widths along ∂p/∂u and across it.
+const uint INPUT_SPECULAR = 4u; // ColorInput: specular coefficient of Phong, η of a conductor.
+const uint INPUT_ABSORPTION = 5u; // ColorInput: k of a conductor; absorption inside a dielectric, which takes no texture.
+const uint INPUT_INDEX = 6u; // NumberInputs: index of refraction of a dielectric, exponent of Phong.
 const uint DIELECTRIC_SOLID = 0u; // Dielectric mode: a boundary with an inside.
 const uint DIELECTRIC_THIN = 1u; // Dielectric mode: a sheet without an inside.
 const uint FRESNEL_INDEX = 0u; // Conductor rule: conductor with eta and k.
@@ -242,48 +251,50 @@ Instance instance_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4
     return r;
 }
 
-struct Material {
+struct MaterialHead {
     uint kind; // MATERIAL_… kind
     uint mode; // FRESNEL_… rule of a conductor, or DIELECTRIC_… mode
-    float ior; // index of refraction of a dielectric
-    float exponent; // exponent of a Phong lobe
-    vec3 color; // colour: radiance, reflectance or diffuse coefficient
-    uint color_texture; // texture of color
-    vec3 specular; // specular coefficient of Phong, absorption of a dielectric, or η of a conductor
-    uint specular_texture; // texture of specular
-    vec3 emission; // radiance sent out
-    uint emission_texture; // texture of emission
-    float alpha_u; // GGX width along ∂p/∂u
-    float alpha_v; // GGX width across ∂p/∂u
-    uint alpha_u_texture; // texture of alpha_u
-    uint alpha_v_texture; // texture of alpha_v
-    vec3 k; // k of a conductor
-    uint exponent_texture; // texture of exponent
-    uint two_sided; // 1 when it sends light out on both sides
-    uvec3 spare; // room
+    uint flags; // MATERIAL_… flags
+    uint spare; // room
 };
-const uint MATERIAL_WORDS = 7u;
-Material material_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
+const uint MATERIAL_HEAD_WORDS = 1u;
+MaterialHead material_head_unpack(uvec4 w0)
 {
-    Material r;
+    MaterialHead r;
     r.kind = w0.x;
     r.mode = w0.y;
-    r.ior = uintBitsToFloat(w0.z);
-    r.exponent = uintBitsToFloat(w0.w);
-    r.color = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
-    r.color_texture = w1.w;
-    r.specular = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
-    r.specular_texture = w2.w;
-    r.emission = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
-    r.emission_texture = w3.w;
-    r.alpha_u = uintBitsToFloat(w4.x);
-    r.alpha_v = uintBitsToFloat(w4.y);
-    r.alpha_u_texture = w4.z;
-    r.alpha_v_texture = w4.w;
-    r.k = uintBitsToFloat(uvec3(w5.x, w5.y, w5.z));
-    r.exponent_texture = w5.w;
-    r.two_sided = w6.x;
-    r.spare = uvec3(w6.y, w6.z, w6.w);
+    r.flags = w0.z;
+    r.spare = w0.w;
+    return r;
+}
+
+struct ColorInput {
+    vec3 value; // the colour, or a factor on that of the texture
+    uint texture; // its texture
+};
+const uint COLOR_INPUT_WORDS = 1u;
+ColorInput color_input_unpack(uvec4 w0)
+{
+    ColorInput r;
+    r.value = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.texture = w0.w;
+    return r;
+}
+
+struct NumberInputs {
+    float first; // the first number, or a factor on that of its texture
+    uint first_texture; // its texture
+    float second; // the second number, or a factor on that of its texture
+    uint second_texture; // its texture
+};
+const uint NUMBER_INPUTS_WORDS = 1u;
+NumberInputs number_inputs_unpack(uvec4 w0)
+{
+    NumberInputs r;
+    r.first = uintBitsToFloat(w0.x);
+    r.first_texture = w0.y;
+    r.second = uintBitsToFloat(w0.z);
+    r.second_texture = w0.w;
     return r;
 }
 

@@ -100,7 +100,7 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     TextureContext context = context_of(surface, ray, facing_normal);
     Bsdf bsdf = material_bsdf(material, context);
     vec3 emitted = vec3(0.0);
-    if (front || material.two_sided != 0u) {
+    if (front || (material.flags & MATERIAL_TWO_SIDED) != 0u) {
         emitted = material_emission(material, context);
         float pdf = 0.0;
         if (path.pdf > 0.0 && surface.light != NONE) pdf = light_pdf(surface.light, ray.origin, surface.position, surface.geometric);

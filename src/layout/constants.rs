@@ -117,6 +117,24 @@ constants! {
     MATERIAL_CONDUCTOR = 3;
     /// Material kind: smooth or GGX glass.
     MATERIAL_DIELECTRIC = 4;
+    /// Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
+    MATERIAL_WORDS = 8;
+    /// Material flag: it sends light out on both sides.
+    MATERIAL_TWO_SIDED = 1;
+    /// Material flag: what its roughness inputs give are roughnesses, to be squared.
+    MATERIAL_SQUARED = 2;
+    /// ColorInput of all materials: radiance sent out.
+    INPUT_EMISSION = 1;
+    /// ColorInput: radiance, reflectance or diffuse coefficient.
+    INPUT_COLOR = 2;
+    /// NumberInputs: GGX widths along ∂p/∂u and across it.
+    INPUT_ROUGHNESS = 3;
+    /// ColorInput: specular coefficient of Phong, η of a conductor.
+    INPUT_SPECULAR = 4;
+    /// ColorInput: k of a conductor; absorption inside a dielectric, which takes no texture.
+    INPUT_ABSORPTION = 5;
+    /// NumberInputs: index of refraction of a dielectric, exponent of Phong.
+    INPUT_INDEX = 6;
     /// Dielectric mode: a boundary with an inside.
     DIELECTRIC_SOLID = 0;
     /// Dielectric mode: a sheet without an inside.

@@ -23,6 +23,16 @@ pub const WORD_BYTES: u64 = 16;
 pub type Item = [[u32; 4]; ITEM_WORDS as usize];
 const _: () = assert!(Node::WORDS == ITEM_WORDS && Triangle::WORDS == ITEM_WORDS);
 
+/// A material in its buffer.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Material {
+    /// What it is.
+    pub head: MaterialHead,
+    /// Its inputs: that of `INPUT_…` i is word i − 1 here.
+    pub inputs: [[u32; 4]; MATERIAL_WORDS as usize - 1],
+}
+
 /// A record in device memory: plain data, a whole number of words.
 pub trait Record: bytemuck::Pod {
     /// Name in GLSL.

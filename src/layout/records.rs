@@ -200,44 +200,36 @@ records! {
         default_uv: u32,
     }
 
-    /// A material. A texture field is a reference, whose bits `prepare` and the code that it generates know, or NONE.
-    struct Material {
+    /// What a material is. Its inputs follow.
+    struct MaterialHead {
         /// MATERIAL_… kind
         kind: u32,
         /// FRESNEL_… rule of a conductor, or DIELECTRIC_… mode
         mode: u32,
-        /// index of refraction of a dielectric
-        ior: f32,
-        /// exponent of a Phong lobe
-        exponent: f32,
-        /// colour: radiance, reflectance or diffuse coefficient
-        color: [f32; 3],
-        /// texture of color
-        color_texture: u32,
-        /// specular coefficient of Phong, absorption of a dielectric, or η of a conductor
-        specular: [f32; 3],
-        /// texture of specular
-        specular_texture: u32,
-        /// radiance sent out
-        emission: [f32; 3],
-        /// texture of emission
-        emission_texture: u32,
-        /// GGX width along ∂p/∂u
-        alpha_u: f32,
-        /// GGX width across ∂p/∂u
-        alpha_v: f32,
-        /// texture of alpha_u
-        alpha_u_texture: u32,
-        /// texture of alpha_v
-        alpha_v_texture: u32,
-        /// k of a conductor
-        k: [f32; 3],
-        /// texture of exponent
-        exponent_texture: u32,
-        /// 1 when it sends light out on both sides
-        two_sided: u32,
+        /// MATERIAL_… flags
+        flags: u32,
         /// room
-        spare: [u32; 3],
+        spare: u32,
+    }
+
+    /// A colour of a material. A texture is a reference, whose bits `prepare` and the code that it generates know, or NONE.
+    struct ColorInput {
+        /// the colour, or a factor on that of the texture
+        value: [f32; 3],
+        /// its texture
+        texture: u32,
+    }
+
+    /// Two numbers of a material.
+    struct NumberInputs {
+        /// the first number, or a factor on that of its texture
+        first: f32,
+        /// its texture
+        first_texture: u32,
+        /// the second number, or a factor on that of its texture
+        second: f32,
+        /// its texture
+        second_texture: u32,
     }
 
     /// What a material does to the surface itself: its opacity and its relief. Texture fields are references, or NONE.

@@ -1,91 +1,143 @@
 //! Materials to records.
 
-use super::Prepared;
 use super::textures::References;
+use super::{Features, Prepared};
 use crate::layout::{
-    DIELECTRIC_SOLID, DIELECTRIC_THIN, FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE, FRESNEL_SCHLICK,
-    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, MATERIAL_UNLIT, Material,
-    NONE,
+    ColorInput, DIELECTRIC_SOLID, DIELECTRIC_THIN, FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE,
+    FRESNEL_SCHLICK, INPUT_ABSORPTION, INPUT_COLOR, INPUT_EMISSION, INPUT_INDEX, INPUT_ROUGHNESS,
+    INPUT_SPECULAR, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG,
+    MATERIAL_SQUARED, MATERIAL_TWO_SIDED, MATERIAL_UNLIT, MATERIAL_WORDS, Material, MaterialHead, NONE,
+    NumberInputs,
 };
-use crate::scene::{self, Fresnel, Scene, Surface, Value};
+use crate::scene::{self, Conductor, Dielectric, Fresnel, Roughness, Scene, Surface, Value};
 use glam::Vec3;
+
+/// The number of a material that has none.
+const NO_NUMBER: Value<f32> = Value::Constant(0.0);
 
 /// Fills `materials`, and the features that they switch on.
 pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) {
     for (_, _, material) in scene.materials.iter() {
-        let record = record(material, textures);
-        out.features.material_kinds |= 1 << record.kind;
-        out.features.textured_color |= record.color_texture != NONE;
-        out.features.textured_specular |= record.specular_texture != NONE;
-        out.features.textured_exponent |= record.exponent_texture != NONE;
-        out.features.textured_alpha |= record.alpha_u_texture != NONE || record.alpha_v_texture != NONE;
-        out.features.textured_emission |= record.emission_texture != NONE;
-        out.features.medium |= record.kind == MATERIAL_DIELECTRIC && record.specular != [0.0; 3];
+        let mut builder = Builder { textures, features: &mut out.features, record: empty() };
+        builder.surface(&material.surface);
+        builder.emission(material.emission.as_ref());
+        let record = builder.record;
+        out.features.material_kinds |= 1 << record.head.kind;
         out.materials.push(record);
     }
 }
 
-fn record(material: &scene::Material, textures: &References) -> Material {
-    let color = |value: &Value<Vec3>| match value {
-        Value::Constant(c) => (c.to_array(), NONE),
-        Value::Texture(handle) => ([1.0; 3], textures.reference(*handle)),
-    };
-    let number = |value: &Value<f32>| match value {
-        Value::Constant(x) => (*x, NONE),
-        Value::Texture(handle) => (1.0, textures.reference(*handle)),
-    };
-    let mut r = Material {
-        color_texture: NONE,
-        specular_texture: NONE,
-        emission_texture: NONE,
-        alpha_u_texture: NONE,
-        alpha_v_texture: NONE,
-        exponent_texture: NONE,
-        ior: 1.0,
-        ..Material::default()
-    };
-    match &material.surface {
-        Surface::Unlit { color: c } => {
-            r.kind = MATERIAL_UNLIT;
-            (r.color, r.color_texture) = color(c);
-        }
-        Surface::Diffuse { color: c } => {
-            r.kind = MATERIAL_DIFFUSE;
-            (r.color, r.color_texture) = color(c);
-        }
-        Surface::Phong { diffuse, specular, exponent } => {
-            r.kind = MATERIAL_PHONG;
-            (r.color, r.color_texture) = color(diffuse);
-            (r.specular, r.specular_texture) = color(specular);
-            (r.exponent, r.exponent_texture) = number(exponent);
-        }
-        Surface::Conductor(conductor) => {
-            r.kind = MATERIAL_CONDUCTOR;
-            (r.color, r.color_texture) = color(&conductor.reflectance);
-            (r.alpha_u, r.alpha_u_texture) = number(&conductor.alpha_u);
-            (r.alpha_v, r.alpha_v_texture) = number(&conductor.alpha_v);
-            r.mode = match conductor.fresnel {
-                Fresnel::Index { eta, k } => {
-                    (r.specular, r.k) = (eta.to_array(), k.to_array());
-                    FRESNEL_INDEX
-                }
-                Fresnel::Exact => FRESNEL_EXACT,
-                Fresnel::Schlick => FRESNEL_SCHLICK,
-                Fresnel::None => FRESNEL_NONE,
-            };
-        }
-        Surface::Dielectric(dielectric) => {
-            r.kind = MATERIAL_DIELECTRIC;
-            r.ior = dielectric.ior;
-            r.mode = if dielectric.thin { DIELECTRIC_THIN } else { DIELECTRIC_SOLID };
-            (r.alpha_u, r.alpha_u_texture) = number(&dielectric.alpha_u);
-            (r.alpha_v, r.alpha_v_texture) = number(&dielectric.alpha_v);
-            r.specular = dielectric.absorption.to_array();
+fn empty() -> Material {
+    let black = ColorInput { value: [0.0; 3], texture: NONE };
+    let inputs = [bytemuck::cast(black); MATERIAL_WORDS as usize - 1];
+    Material { head: MaterialHead::default(), inputs }
+}
+
+/// A material in the making.
+struct Builder<'a> {
+    textures: &'a References,
+    features: &'a mut Features,
+    record: Material,
+}
+
+impl Builder<'_> {
+    fn surface(&mut self, surface: &Surface) {
+        match surface {
+            Surface::Unlit { color } => {
+                self.kind(MATERIAL_UNLIT);
+                self.color(INPUT_COLOR, color);
+            }
+            Surface::Diffuse { color } => {
+                self.kind(MATERIAL_DIFFUSE);
+                self.color(INPUT_COLOR, color);
+            }
+            Surface::Phong { diffuse, specular, exponent } => {
+                self.kind(MATERIAL_PHONG);
+                self.color(INPUT_COLOR, diffuse);
+                self.color(INPUT_SPECULAR, specular);
+                self.numbers(INPUT_INDEX, [*exponent, NO_NUMBER]);
+            }
+            Surface::Conductor(conductor) => self.conductor(conductor),
+            Surface::Dielectric(dielectric) => self.dielectric(dielectric),
         }
     }
-    if let Some(emission) = &material.emission {
-        (r.emission, r.emission_texture) = color(&emission.radiance);
-        r.two_sided = u32::from(emission.two_sided);
+
+    fn conductor(&mut self, conductor: &Conductor) {
+        self.kind(MATERIAL_CONDUCTOR);
+        self.roughness(&conductor.roughness);
+        if let Fresnel::Index { eta, k } = &conductor.fresnel {
+            self.features.metal_index = true;
+            self.color(INPUT_SPECULAR, eta);
+            self.color(INPUT_ABSORPTION, k);
+        } else {
+            self.color(INPUT_COLOR, &conductor.reflectance);
+        }
+        self.record.head.mode = match conductor.fresnel {
+            Fresnel::Index { .. } => FRESNEL_INDEX,
+            Fresnel::Exact => FRESNEL_EXACT,
+            Fresnel::Schlick => FRESNEL_SCHLICK,
+            Fresnel::None => FRESNEL_NONE,
+        };
     }
-    r
+
+    fn dielectric(&mut self, dielectric: &Dielectric) {
+        self.kind(MATERIAL_DIELECTRIC);
+        self.record.head.mode = if dielectric.thin { DIELECTRIC_THIN } else { DIELECTRIC_SOLID };
+        self.numbers(INPUT_INDEX, [dielectric.ior, NO_NUMBER]);
+        self.roughness(&dielectric.roughness);
+        self.color(INPUT_ABSORPTION, &Value::Constant(dielectric.absorption));
+        self.features.medium |= dielectric.absorption != Vec3::ZERO;
+    }
+
+    fn emission(&mut self, emission: Option<&scene::Emission>) {
+        let Some(emission) = emission else { return };
+        self.color(INPUT_EMISSION, &emission.radiance);
+        self.record.head.flags |= if emission.two_sided { MATERIAL_TWO_SIDED } else { 0 };
+    }
+
+    fn kind(&mut self, kind: u32) {
+        self.record.head.kind = kind;
+    }
+
+    fn roughness(&mut self, roughness: &Roughness) {
+        let Roughness { u, v, squared } = *roughness;
+        self.features.anisotropic |= u != v;
+        match (u, v) {
+            (Value::Constant(u), Value::Constant(v)) if squared => {
+                self.numbers(INPUT_ROUGHNESS, [Value::Constant(u * u), Value::Constant(v * v)]);
+            }
+            _ => {
+                self.numbers(INPUT_ROUGHNESS, [u, v]);
+                self.record.head.flags |= if squared { MATERIAL_SQUARED } else { 0 };
+            }
+        }
+    }
+
+    fn color(&mut self, input: u32, value: &Value<Vec3>) {
+        let (value, texture) = match value {
+            Value::Constant(color) => (*color, NONE),
+            Value::Texture(handle) => (Vec3::ONE, self.textures.reference(*handle)),
+        };
+        self.note(input, 0, texture);
+        self.put(input, bytemuck::cast(ColorInput { value: value.to_array(), texture }));
+    }
+
+    fn numbers(&mut self, input: u32, values: [Value<f32>; 2]) {
+        let [(first, first_texture), (second, second_texture)] = values.map(|value| match value {
+            Value::Constant(number) => (number, NONE),
+            Value::Texture(handle) => (1.0, self.textures.reference(handle)),
+        });
+        self.note(input, 0, first_texture);
+        self.note(input, 1, second_texture);
+        self.put(input, bytemuck::cast(NumberInputs { first, first_texture, second, second_texture }));
+    }
+
+    fn put(&mut self, input: u32, word: [u32; 4]) {
+        self.record.inputs[input as usize - 1] = word;
+    }
+
+    /// Switches a texture on for an input, or for one of its two numbers.
+    fn note(&mut self, input: u32, which: u32, texture: u32) {
+        self.features.textured_inputs |= u32::from(texture != NONE) << (2 * input + which);
+    }
 }

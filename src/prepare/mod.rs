@@ -129,16 +129,13 @@ pub struct Features {
     pub environment: bool,
     /// An environment from a picture.
     pub environment_image: bool,
-    /// A colour that a texture drives.
-    pub textured_color: bool,
-    /// A specular colour that a texture drives.
-    pub textured_specular: bool,
-    /// An exponent that a texture drives.
-    pub textured_exponent: bool,
-    /// A roughness that a texture drives.
-    pub textured_alpha: bool,
-    /// An emission that a texture drives.
-    pub textured_emission: bool,
+    /// Inputs of materials that a texture drives: two bits for each `INPUT_…`, for a colour or the first number, and for the
+    /// second number.
+    pub textured_inputs: u32,
+    /// A roughness along ∂p/∂u that is not that across it.
+    pub anisotropic: bool,
+    /// Metal by its index of refraction.
+    pub metal_index: bool,
     /// Surfaces that let rays through.
     pub opacity: bool,
     /// Surfaces that colour what they let through.

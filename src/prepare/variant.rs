@@ -2,8 +2,8 @@
 
 use super::Prepared;
 use crate::layout::{
-    Backend, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE,
-    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, STACK_ENTRIES,
+    Backend, INPUT_EMISSION, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT,
+    LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, STACK_ENTRIES,
 };
 use crate::scene::{FilterKind, Sampler, Scene};
 use std::collections::BTreeMap;
@@ -158,11 +158,9 @@ pub fn defines(
         flag("HAS_DIELECTRIC", material(MATERIAL_DIELECTRIC));
         flag("HAS_MEDIUM", features.medium);
         flag("HAS_FOOTPRINT", features.footprint);
-        flag("TEXTURED_COLOR", features.textured_color);
-        flag("TEXTURED_SPECULAR", features.textured_specular);
-        flag("TEXTURED_EXPONENT", features.textured_exponent);
-        flag("TEXTURED_ALPHA", features.textured_alpha);
-        flag("TEXTURED_EMISSION", features.textured_emission);
+        flag("HAS_METAL_INDEX", features.metal_index);
+        flag("ANISOTROPIC", features.anisotropic);
+        flag("TEXTURED_EMISSION", features.textured_inputs & 1 << (2 * INPUT_EMISSION) != 0);
         flag("HAS_LIGHTS", !prepared.lights.is_empty());
         let light = |kind: u32| features.light_kinds & 1 << kind != 0;
         flag("HAS_LIGHT_POINT", light(LIGHT_POINT));
@@ -178,6 +176,9 @@ pub fn defines(
         flag("GEOMETRIC_VETO", scene.render.geometric_veto);
         // Without an environment there is nothing to leave out: one variant less.
         flag("TRANSPARENT_FILM", scene.film.transparent && features.environment);
+    }
+    if stage == Stage::Shade {
+        all.insert("TEXTURED_INPUTS".to_owned(), format!("{}u", features.textured_inputs));
     }
     if stage.traverses() {
         all.insert("TRAVERSAL_STACK".to_owned(), stack_size(prepared.stack_entries).to_string());

@@ -13,7 +13,7 @@ use dapple::gpu::{DeviceChoice, DeviceType, Gpu};
 use dapple::render::{Next, Options, Renderer};
 use dapple::scene::{
     Camera, Conductor, Dielectric, Emission, Environment, FovAxis, Fresnel, Handle, Image, ImageTexture,
-    Instance, Light, Material, Mesh, Scene, Shape, ShapeKind, Surface, Texture, Value,
+    Instance, Light, Material, Mesh, Roughness, Scene, Shape, ShapeKind, Surface, Texture, Value,
 };
 use dapple::shader::{CacheOptions, Compiler, Sources};
 use glam::{Affine3A, DVec3, Mat3, Vec3};
@@ -232,14 +232,14 @@ impl Build for Scene {
 
 /// A metal.
 pub fn conductor(reflectance: f32, alpha: f32, fresnel: Fresnel) -> Surface {
-    let alpha = Value::Constant(alpha);
-    Surface::Conductor(Conductor { reflectance: grey(reflectance), fresnel, alpha_u: alpha, alpha_v: alpha })
+    let roughness = Roughness::alpha(alpha);
+    Surface::Conductor(Conductor { reflectance: grey(reflectance), fresnel, roughness })
 }
 
 /// Clear material.
 pub fn glass(ior: f32, alpha: f32, absorption: Vec3, thin: bool) -> Surface {
-    let alpha = Value::Constant(alpha);
-    Surface::Dielectric(Dielectric { ior, alpha_u: alpha, alpha_v: alpha, absorption, thin })
+    let (ior, roughness) = (Value::Constant(ior), Roughness::alpha(alpha));
+    Surface::Dielectric(Dielectric { ior, roughness, absorption, thin })
 }
 
 /// A sphere with its north pole up and longitude 0 towards +x.

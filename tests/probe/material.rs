@@ -45,6 +45,7 @@ const BSDF: &str = "
     #define HAS_DIFFUSE
     #define HAS_PHONG
     #define HAS_CONDUCTOR
+    #define HAS_METAL_INDEX
     #define HAS_DIELECTRIC
     #include \"material/material.glsl\"
     const uint HEADER = 6u;

@@ -105,7 +105,7 @@ fn textures_and_materials() {
         ),
         (
             "[material.m]\nkind = 'conductor'\nroughness = { texture = 'a' }",
-            "3:13: `roughness` must be a number or two, found a table; only `alpha` can come from a texture",
+            "3:25: no texture is named `a`; there are no textures",
         ),
         (
             "[material.m]\nkind = 'conductor'\nalpha = [1, 1, 1]",

@@ -3,7 +3,7 @@
 use super::blob;
 use dapple::scene::{
     Camera, Conductor, Dielectric, Emission, Environment, Film, Fresnel, Handle, Instance, Material, Render,
-    Scene, Shape, ShapeKind, Surface, Value,
+    Roughness, Scene, Shape, ShapeKind, Surface, Value,
 };
 use glam::{Affine3A, Mat3, Quat, Vec3};
 
@@ -31,14 +31,12 @@ pub(super) fn blob_scene() -> Scene {
 /// Spheres of glass, metal and clay: branching materials, long paths.
 fn glass_scene() -> Scene {
     let mut scene = room(10);
-    let constant = Value::Constant;
     let glass = scene.materials.add(
         "glass",
         Material::new(
             Surface::Dielectric(Dielectric {
-                ior: 1.5,
-                alpha_u: constant(0.0),
-                alpha_v: constant(0.0),
+                ior: Value::Constant(1.5),
+                roughness: Roughness::alpha(0.0),
                 absorption: Vec3::new(0.1, 0.3, 0.6),
                 thin: false,
             }),
@@ -51,8 +49,7 @@ fn glass_scene() -> Scene {
             Surface::Conductor(Conductor {
                 reflectance: Value::Constant(Vec3::new(0.9, 0.8, 0.6)),
                 fresnel: Fresnel::Exact,
-                alpha_u: constant(0.15),
-                alpha_v: constant(0.15),
+                roughness: Roughness::alpha(0.15),
             }),
             None,
         ),

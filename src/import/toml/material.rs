@@ -7,7 +7,7 @@ use super::text::{Limits, number, shown};
 use super::view::{Item, View};
 use crate::Result;
 use crate::scene::{
-    Conductor, Dielectric, Emission, Fresnel, ImageTexture, Material, Surface, Texture, Value,
+    Conductor, Dielectric, Emission, Fresnel, ImageTexture, Material, Roughness, Surface, Texture, Value,
 };
 use glam::Vec3;
 
@@ -62,12 +62,12 @@ impl Reader<'_> {
     }
 
     fn conductor(&self, view: &View<'_>) -> Result<Conductor> {
-        let [alpha_u, alpha_v] = self.alpha(view)?;
+        let roughness = self.roughness(view)?;
         if view.get("eta").is_none() && view.get("k").is_none() {
             let models = [("exact", Fresnel::Exact), ("schlick", Fresnel::Schlick), ("none", Fresnel::None)];
             let reflectance = self.color_or(view, "reflectance", 0.9, REFLECTANCE)?;
             let fresnel = view.choice_or("fresnel", Fresnel::Exact, &models)?;
-            return Ok(Conductor { reflectance, fresnel, alpha_u, alpha_v });
+            return Ok(Conductor { reflectance, fresnel, roughness });
         }
         for key in ["reflectance", "fresnel"] {
             if let Some(item) = view.get(key) {
@@ -76,17 +76,15 @@ impl Reader<'_> {
                     .help("keep one or the other"));
             }
         }
-        let eta = super::value::color(view.need("eta")?, Limits::AboveUpTo(0.0, MAX_INDEX))?;
-        let k = super::value::color(view.need("k")?, Limits::From(0.0, MAX_INDEX))?;
-        // What the equations give at normal incidence, for those who want a single colour.
-        let reflectance = ((eta - 1.0) * (eta - 1.0) + k * k) / ((eta + 1.0) * (eta + 1.0) + k * k);
-        let fresnel = Fresnel::Index { eta, k };
-        Ok(Conductor { reflectance: Value::Constant(reflectance), fresnel, alpha_u, alpha_v })
+        let eta = self.color(view.need("eta")?, Limits::AboveUpTo(0.0, MAX_INDEX))?;
+        let k = self.color(view.need("k")?, Limits::From(0.0, MAX_INDEX))?;
+        let reflectance = Value::Constant(Vec3::ONE);
+        Ok(Conductor { reflectance, fresnel: Fresnel::Index { eta, k }, roughness })
     }
 
     fn dielectric(&self, view: &View<'_>) -> Result<Dielectric> {
-        let ior = view.f32_or("ior", 1.5, Limits::AboveUpTo(0.0, MAX_INDEX))?;
-        let [alpha_u, alpha_v] = self.alpha(view)?;
+        let ior = self.number_or(view, "ior", 1.5, Limits::AboveUpTo(0.0, MAX_INDEX))?;
+        let roughness = self.roughness(view)?;
         let thin = view.bool_or("thin", false)?;
         let absorption = match view.get("absorption") {
             Some(item) if thin => {
@@ -95,40 +93,29 @@ impl Reader<'_> {
             Some(item) => super::value::color(item, Limits::AtLeast(0.0))?,
             None => Vec3::ZERO,
         };
-        let rough = view
-            .get("roughness")
-            .or(view.get("alpha"))
-            .filter(|_| [alpha_u, alpha_v].iter().any(|alpha| *alpha != Value::Constant(0.0)));
+        let rough = view.get("roughness").or(view.get("alpha")).filter(|_| !roughness.is_smooth());
         if let Some(item) = rough {
             if thin {
                 return Err(item
                     .error("a thin sheet must be smooth")
                     .help(format!("remove {}", item.name())));
             }
-            if ior == 1.0 {
+            if ior == Value::Constant(1.0) {
                 return Err(item
                     .error("a rough surface needs an `ior` other than 1")
                     .help(format!("change `ior` or remove {}", item.name())));
             }
         }
-        Ok(Dielectric { ior, alpha_u, alpha_v, absorption, thin })
+        Ok(Dielectric { ior, roughness, absorption, thin })
     }
 
     /// GGX widths from `roughness` (squared) or `alpha` (as it is).
-    fn alpha(&self, view: &View<'_>) -> Result<[Value<f32>; 2]> {
+    fn roughness(&self, view: &View<'_>) -> Result<Roughness> {
         let Some(item) = view.either("roughness", "alpha")? else {
-            return Ok([Value::Constant(0.0); 2]);
+            return Ok(Roughness::alpha(0.0));
         };
-        let limits = Limits::From(0.0, 1.0);
-        if view.get("alpha").is_some() {
-            return pair(item, |one| self.number(one, limits));
-        }
-        pair(item, |one| {
-            if !one.is_number() {
-                return Err(one.mismatch("a number or two").help("only `alpha` can come from a texture"));
-            }
-            one.f32(limits).map(|roughness| Value::Constant(roughness * roughness))
-        })
+        let [u, v] = pair(item, |one| self.number(one, Limits::From(0.0, 1.0)))?;
+        Ok(Roughness { u, v, squared: view.get("roughness").is_some() })
     }
 
     fn emission(&mut self, view: &View<'_>, name: &str) -> Result<Option<Emission>> {

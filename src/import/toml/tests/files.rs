@@ -58,7 +58,7 @@ fn set_changes_the_scene() {
     let Surface::Conductor(metal) = &scene.materials[scene.shapes[1].material].surface else {
         panic!("metal")
     };
-    assert_eq!(metal.alpha_u, Value::Constant(0.125), "in place of `roughness`");
+    assert_eq!(metal.roughness, Roughness::alpha(0.125), "in place of `roughness`");
     let radius = |shape: &Shape| matches!(shape.kind, ShapeKind::Sphere { radius, .. } if radius == 3.0);
     assert_eq!(scene.shapes.iter().map(radius).collect::<Vec<_>>(), [false, true]);
 }

@@ -252,16 +252,18 @@ fn materials_take_every_key() {
         (steel.reflectance, steel.fresnel),
         (Value::Constant(Vec3::new(0.75, 0.5, 0.25)), Fresnel::Schlick)
     );
-    assert_eq!((steel.alpha_u, steel.alpha_v), (Value::Constant(0.25), Value::Constant(0.25)));
+    let same = |x| Roughness { u: Value::Constant(x), v: Value::Constant(x), squared: true };
+    assert_eq!(steel.roughness, same(0.5));
     let Surface::Conductor(gold) = &material("gold").surface else { panic!("gold") };
-    assert_eq!(gold.fresnel, Fresnel::Index { eta: Vec3::ONE, k: Vec3::splat(2.0) });
-    assert_eq!(gold.reflectance, grey(0.5));
-    assert_eq!((gold.alpha_u, gold.alpha_v), (Value::Texture(texture("wood")), Value::Constant(0.125)));
+    assert_eq!(gold.fresnel, Fresnel::Index { eta: grey(1.0), k: Value::Texture(texture("veins")) });
+    assert_eq!(gold.roughness, Roughness::alphas(Value::Texture(texture("wood")), Value::Constant(0.125)));
     let Surface::Dielectric(glass) = &material("glass").surface else { panic!("glass") };
-    assert_eq!((glass.ior, glass.absorption, glass.thin), (1.25, Vec3::new(0.0, 0.5, 1.0), false));
-    assert_eq!((glass.alpha_u, glass.alpha_v), (Value::Constant(0.25), Value::Constant(0.0625)));
+    assert_eq!(glass.ior, Value::Texture(texture("other")));
+    assert_eq!((glass.absorption, glass.thin), (Vec3::new(0.0, 0.5, 1.0), false));
+    let (u, v) = (Value::Texture(texture("wood")), Value::Constant(0.25));
+    assert_eq!(glass.roughness, Roughness { u, v, squared: true });
     let Surface::Dielectric(pane) = &material("pane").surface else { panic!("pane") };
-    assert!(pane.thin && pane.ior == 1.5 && pane.alpha_u == Value::Constant(0.0));
+    assert!(pane.thin && pane.ior == Value::Constant(1.5) && pane.roughness.is_smooth());
 }
 
 #[test]
