@@ -8,10 +8,11 @@ use dapple::layout::{BINDINGS, Backend, Binding, BindingKind, WORKGROUP};
 use dapple::prepare::{self, Prepared, Stage};
 use dapple::render;
 use dapple::scene::{
-    Aperture, Channel, ColorSpace, Conductor, Coordinates, Dielectric, Emission, Environment, FilterKind,
-    Fresnel, Gradient, Handle, Image, ImageTexture, Instance, Lens, Light, Material, Mesh, MeshPart, Metric,
-    Noise, NoiseSum, Opacity, PatternSpace, Roughness, Sampler, Scene, Shape, ShapeKind, Surface,
-    TexelFilter, Texels, Texture, UvTransform, Value, WorleyFeature, Wrap,
+    Aperture, Bump, Channel, ColorSpace, Conductor, Coordinates, Derivative, Dielectric, Emission,
+    Environment, FilterKind, Fresnel, Gradient, Handle, Image, ImageTexture, Instance, Lens, Light, Material,
+    Mesh, MeshPart, Metric, Noise, NoiseSum, NormalMap, Opacity, PatternSpace, Roughness, Sampler, Scene,
+    Shape, ShapeKind, Surface, Tangents, TexelFilter, Texels, Texture, UvTransform, Value, WorleyFeature,
+    Wrap,
 };
 use dapple::shader::{BindingClass, Compiler, Reflection, Spirv, reflect, scan, translates_to_wgsl};
 use glam::{Affine3A, Mat3, Vec3};
@@ -166,7 +167,11 @@ fn trees() -> Scene {
     let shade = Surface::Diffuse { color: Value::Texture(last) };
     let lamp = material(&mut scene, shade, Some(Value::Texture(last)));
     let (value, filter) = (Value::Texture(last), Value::Texture(last));
-    scene.materials[lamp].detail.opacity = Opacity { value, cutoff: None, filter };
+    let detail = &mut scene.materials[lamp].detail;
+    detail.opacity = Opacity { value, cutoff: None, filter };
+    detail.bump = Some(Bump { texture: last, height: 1.0, derivative: Derivative::Kernel, curvature: true });
+    let (green_down, strength, tangents) = (false, 1.0, Tangents::MikkTSpace);
+    detail.normal_map = Some(NormalMap { texture: last, green_down, strength, tangents });
     place_triangle(&mut scene, lamp, 1);
     place_shape(&mut scene, lamp, sphere());
     scene.environment = surroundings(Value::Texture(last));

@@ -12,8 +12,7 @@
 //! | `c_uv_quadrics` | a partial sphere, uv of a cylinder |
 //! | `d_checker` | 3D checkerboards, planar, cylindrical and spherical mappings |
 //! | `e_noise`, `f_marble_dots` | procedural textures |
-//! | `g_bump`, `m_instances`, `m_bumpmap` | bump mapping |
-//! | `h_normalmap` | normal maps |
+//! | `g_bump`, `m_instances` | fbm as pbrt has it |
 //! | `n_infinite_image` | an equal-area environment |
 //! | `o_lens_dgauss`, `o_lens_wide` | lenses of several elements |
 //! | `p_equirect`, `p_ortho` | other cameras |
@@ -107,6 +106,6 @@ macro_rules! scenes {
 }
 
 scenes! {
-    pbrt: a_cornell b_wrap i_alpha j_thinlens k_softshadow l_materials n_infinite_const r_hardlights;
-    mitsuba: m_area_lights m_bitmap_wrap_filter m_cornell_saturated m_dielectric m_mask m_thinlens;
+    pbrt: a_cornell b_wrap h_normalmap i_alpha j_thinlens k_softshadow l_materials n_infinite_const r_hardlights;
+    mitsuba: m_area_lights m_bitmap_wrap_filter m_bumpmap m_cornell_saturated m_dielectric m_mask m_thinlens;
 }

@@ -273,7 +273,10 @@ fn a_camera_on_a_surface_and_in_a_corner() {
 #[test]
 fn materials_at_the_ends_of_their_ranges() {
     let metal = |x: f32, a: f32, f| conductor(x, a, f);
-    let index = Fresnel::Index { eta: Vec3::new(0.2, 1.0, 5.0), k: Vec3::new(0.0, 4.0, 20.0) };
+    let index = Fresnel::Index {
+        eta: Value::Constant(Vec3::new(0.2, 1.0, 5.0)),
+        k: Value::Constant(Vec3::new(0.0, 4.0, 20.0)),
+    };
     let surfaces = [
         metal(1.0, 1.0, Fresnel::Exact),
         metal(1.0, 0.001, Fresnel::Exact),

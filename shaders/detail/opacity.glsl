@@ -1,10 +1,8 @@
 // How much of a surface is there.
-#include "shared/bindings.glsl"
+#include "detail/detail.glsl"
 #include "base/math.glsl"
 #include "texture/context.glsl"
 #include "generated/textures.glsl"
-
-Detail detail_fetch(uint i) { return detail_unpack(fetch_details(i * DETAIL_WORDS), fetch_details(i * DETAIL_WORDS + 1u)); }
 
 float opacity_at(Detail detail, TextureContext context)
 {

@@ -62,6 +62,15 @@ const uint INPUT_ROUGHNESS = 3u; // NumberInputs: GGX widths along ∂p/∂u and
 const uint INPUT_SPECULAR = 4u; // ColorInput: specular coefficient of Phong, η of a conductor.
 const uint INPUT_ABSORPTION = 5u; // ColorInput: k of a conductor; absorption inside a dielectric, which takes no texture.
 const uint INPUT_INDEX = 6u; // NumberInputs: index of refraction of a dielectric, exponent of Phong.
+const uint DETAIL_CURVATURE = 1u; // Detail flag: the bend of the surface itself, times the height, counts in a bump map.
+const uint DETAIL_SOFT_TERMINATOR = 2u; // Detail flag: the light at the edge of bumps is softened.
+const uint DETAIL_VISIBLE = 4u; // Detail flag: a normal that is turned away from the viewer is turned back.
+const uint DETAIL_VERTEX_TANGENTS = 8u; // Detail flag: tangents of a normal map are those of the vertices.
+const uint DETAIL_GREEN_DOWN = 16u; // Detail flag: green in a normal map is down.
+const uint DERIVATIVE_FORWARD = 0u; // Rule of a derivative: forward differences.
+const uint DERIVATIVE_KERNEL = 1u; // Rule of a derivative: the 3 × 3 kernel over texels.
+const uint DERIVATIVE_BILINEAR = 2u; // Rule of a derivative: that of the bilinear surface between texels.
+const uint DERIVATIVE_CENTRAL = 3u; // Rule of a derivative: central differences.
 const uint DIELECTRIC_SOLID = 0u; // Dielectric mode: a boundary with an inside.
 const uint DIELECTRIC_THIN = 1u; // Dielectric mode: a sheet without an inside.
 const uint FRESNEL_INDEX = 0u; // Conductor rule: conductor with eta and k.
@@ -201,7 +210,7 @@ struct Vertex {
     vec3 normal; // normal of any length, or 0 when the mesh is flat
     float u; // texture coordinate, rightward
     float v; // texture coordinate, upward
-    vec3 spare; // room for a tangent
+    vec3 tangent; // tangent in the space of the normal: 1 long, or 2 when its bitangent is on the other side; 0 = there is none
 };
 const uint VERTEX_WORDS = 2u;
 Vertex vertex_unpack(uvec4 w0, uvec4 w1)
@@ -210,7 +219,7 @@ Vertex vertex_unpack(uvec4 w0, uvec4 w1)
     r.normal = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
     r.u = uintBitsToFloat(w0.w);
     r.v = uintBitsToFloat(w1.x);
-    r.spare = uintBitsToFloat(uvec3(w1.y, w1.z, w1.w));
+    r.tangent = uintBitsToFloat(uvec3(w1.y, w1.z, w1.w));
     return r;
 }
 
@@ -304,10 +313,19 @@ struct Detail {
     float cutoff; // opacity from which a point is there, or less than 0: each point is there to a part
     uint filter_texture; // texture of the filter, a factor on it
     vec3 filter_color; // colour of light that goes straight through
+    uint flags; // DETAIL_… flags
+    uint height_texture; // texture of the height of a bump map, or NONE
+    float height; // factor on the height, scene units
+    uint derivative; // DERIVATIVE_… rule of the height
+    uint normal_texture; // texture of a normal map, or NONE
+    vec2 step_x; // what one step of the derivative along its first axis adds to uv
+    vec2 step_y; // the same along its second axis
+    vec2 steps_at_zero; // steps, whole at texel centres, of the uv (0, 0)
+    float strength; // factor on the tilt of a normal map
     uint spare; // room
 };
-const uint DETAIL_WORDS = 2u;
-Detail detail_unpack(uvec4 w0, uvec4 w1)
+const uint DETAIL_WORDS = 5u;
+Detail detail_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4)
 {
     Detail r;
     r.opacity = uintBitsToFloat(w0.x);
@@ -315,7 +333,16 @@ Detail detail_unpack(uvec4 w0, uvec4 w1)
     r.cutoff = uintBitsToFloat(w0.z);
     r.filter_texture = w0.w;
     r.filter_color = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
-    r.spare = w1.w;
+    r.flags = w1.w;
+    r.height_texture = w2.x;
+    r.height = uintBitsToFloat(w2.y);
+    r.derivative = w2.z;
+    r.normal_texture = w2.w;
+    r.step_x = uintBitsToFloat(uvec2(w3.x, w3.y));
+    r.step_y = uintBitsToFloat(uvec2(w3.z, w3.w));
+    r.steps_at_zero = uintBitsToFloat(uvec2(w4.x, w4.y));
+    r.strength = uintBitsToFloat(w4.z);
+    r.spare = w4.w;
     return r;
 }
 

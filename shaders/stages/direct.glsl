@@ -3,6 +3,7 @@
 #include "material/material.glsl"
 #include "material/medium.glsl"
 #include "light/light.glsl"
+#include "stages/relief.glsl"
 
 // Part of the way to a light that a shadow ray goes: what is nearer to the light than the rest, as its own box in the tree, is
 // not looked at (pbrt-v4 has 1 - 10^-4).
@@ -16,6 +17,9 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
     vec3 wi = basis_to_local(basis, light.wi);
     vec3 f = bsdf_eval(bsdf, wo, wi) * abs(wi.z);
     if (!(light.pdf > 0.0) || max_component(f) <= 0.0) return;
+#if defined(HAS_BUMP) || defined(HAS_NORMAL_MAP)
+    if (wo.z * wi.z > 0.0) f *= softening(surface, light.wi);
+#endif
     float side = dot(light.wi, surface.geometric);
 #ifdef GEOMETRIC_VETO
     if (side * wi.z <= 0.0) return;

@@ -2,8 +2,9 @@
 // Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
 // TRANSPARENT_FILM and those of the menus.
 #include "stages/direct.glsl"
-#ifdef HAS_OPACITY
-#include "geometry/passing.glsl"
+#include "stages/relief.glsl"
+#ifdef HAS_FILTER
+#include "stages/filter.glsl"
 #endif
 #include "stages/aov.glsl"
 
@@ -35,6 +36,9 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
 #ifdef GEOMETRIC_VETO
     if (side * s.wi.z <= 0.0) return false;
 #endif
+#if defined(HAS_BUMP) || defined(HAS_NORMAL_MAP)
+    if (!s.through && s.pdf > 0.0) s.weight *= softening(surface, wi);
+#endif
     path.throughput *= s.weight;
     path.pdf = s.pdf;
     if (s.pdf > 0.0) path.diffuse_depth += 1u;
@@ -61,18 +65,6 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
     return true;
 }
 
-#ifdef HAS_FILTER
-// Whether a ray goes on where its surface is not there, coloured by it: no event of the path.
-bool passes_through(inout Path path, Surface surface, vec3 direction)
-{
-    Detail detail = detail_fetch(surface.material);
-    TextureContext context = opacity_context(surface);
-    if (opacity_stops(path_opacity_key(path), surface, opacity_at(detail, context), direction)) return false;
-    path.throughput *= filter_at(detail, context);
-    return true;
-}
-#endif
-
 // One event; true when the path goes on.
 bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
 {
@@ -98,6 +90,10 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
 #endif
     vec3 facing_normal = front ? surface.normal : -surface.normal;
     TextureContext context = context_of(surface, ray, facing_normal);
+#if defined(HAS_BUMP) || defined(HAS_NORMAL_MAP)
+    relieve(surface, context, -ray.direction);
+    facing_normal = front ? surface.normal : -surface.normal;
+#endif
     Bsdf bsdf = material_bsdf(material, context);
     vec3 emitted = vec3(0.0);
     if (front || (material.flags & MATERIAL_TWO_SIDED) != 0u) {
@@ -113,6 +109,10 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
 
     Basis basis = basis_along(surface.normal, surface.dpdu);
     vec3 wo = basis_to_local(basis, -ray.direction);
+#ifdef GEOMETRIC_VETO
+    // A normal that is turned away from the viewer shows the side that is not seen
+    if ((wo.z > 0.0) != front) return false;
+#endif
     bool last = !specular && path.diffuse_depth >= frame.diffuse_bounces;
 #if defined(HAS_LIGHTS) || defined(HAS_ENVIRONMENT)
     if (!specular) sample_direct_light(path, surface, bsdf, basis, wo, last, slot, next);

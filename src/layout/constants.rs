@@ -135,6 +135,24 @@ constants! {
     INPUT_ABSORPTION = 5;
     /// NumberInputs: index of refraction of a dielectric, exponent of Phong.
     INPUT_INDEX = 6;
+    /// Detail flag: the bend of the surface itself, times the height, counts in a bump map.
+    DETAIL_CURVATURE = 1;
+    /// Detail flag: the light at the edge of bumps is softened.
+    DETAIL_SOFT_TERMINATOR = 2;
+    /// Detail flag: a normal that is turned away from the viewer is turned back.
+    DETAIL_VISIBLE = 4;
+    /// Detail flag: tangents of a normal map are those of the vertices.
+    DETAIL_VERTEX_TANGENTS = 8;
+    /// Detail flag: green in a normal map is down.
+    DETAIL_GREEN_DOWN = 16;
+    /// Rule of a derivative: forward differences.
+    DERIVATIVE_FORWARD = 0;
+    /// Rule of a derivative: the 3 × 3 kernel over texels.
+    DERIVATIVE_KERNEL = 1;
+    /// Rule of a derivative: that of the bilinear surface between texels.
+    DERIVATIVE_BILINEAR = 2;
+    /// Rule of a derivative: central differences.
+    DERIVATIVE_CENTRAL = 3;
     /// Dielectric mode: a boundary with an inside.
     DIELECTRIC_SOLID = 0;
     /// Dielectric mode: a sheet without an inside.

@@ -164,8 +164,8 @@ records! {
         u: f32,
         /// texture coordinate, upward
         v: f32,
-        /// room for a tangent
-        spare: [f32; 3],
+        /// tangent in the space of the normal: 1 long, or 2 when its bitangent is on the other side; 0 = there is none
+        tangent: [f32; 3],
     }
 
     /// A shape or mesh in the world. Rows are of 3×4 matrices.
@@ -244,6 +244,24 @@ records! {
         filter_texture: u32,
         /// colour of light that goes straight through
         filter_color: [f32; 3],
+        /// DETAIL_… flags
+        flags: u32,
+        /// texture of the height of a bump map, or NONE
+        height_texture: u32,
+        /// factor on the height, scene units
+        height: f32,
+        /// DERIVATIVE_… rule of the height
+        derivative: u32,
+        /// texture of a normal map, or NONE
+        normal_texture: u32,
+        /// what one step of the derivative along its first axis adds to uv
+        step_x: [f32; 2],
+        /// the same along its second axis
+        step_y: [f32; 2],
+        /// steps, whole at texel centres, of the uv (0, 0)
+        steps_at_zero: [f32; 2],
+        /// factor on the tilt of a normal map
+        strength: f32,
         /// room
         spare: u32,
     }

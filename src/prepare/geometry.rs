@@ -5,8 +5,7 @@
 
 use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
-use super::details::lets_through;
-use super::triangles::{mirrors, push_triangles, quad_mesh};
+use super::triangles::{Extras, mirrors, push_triangles, quad_mesh};
 use super::wide::Leaves;
 use super::{Prepared, rows};
 use crate::layout::{
@@ -78,8 +77,8 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
             ShapeKind::Disk { .. } => disk_bounds(&world_from_object),
             ShapeKind::Quad { .. } => {
                 let (first, mesh) = (soup.len(), quad_mesh());
-                let open = lets_through(scene, &mesh, [shape.material]);
-                let face = push_triangles(&mesh, &world_from_object, Some(instance), &open, out, &mut soup);
+                let extras = Extras::of(scene, &mesh, [shape.material]);
+                let face = push_triangles(&mesh, &world_from_object, Some(instance), &extras, out, &mut soup);
                 out.instances[instance as usize].first_face = face;
                 bounds_of(&soup[first..])
             }
@@ -99,8 +98,8 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
         out.instances[index as usize].default_uv = u32::from(mesh.uvs.is_empty());
         let bounds = if once {
             let first = soup.len();
-            let open = lets_through(scene, mesh, [instance.material]);
-            let face = push_triangles(mesh, &map, Some(index), &open, out, &mut soup);
+            let extras = Extras::of(scene, mesh, [instance.material]);
+            let face = push_triangles(mesh, &map, Some(index), &extras, out, &mut soup);
             out.instances[index as usize].first_face = face;
             bounds_of(&soup[first..])
         } else {
@@ -121,8 +120,8 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
 fn mesh_tree(scene: &Scene, handle: Handle<Mesh>, out: &mut Prepared) -> Result<MeshTree> {
     let (mesh, mut triangles) = (&scene.meshes[handle], Vec::new());
     let instances = scene.instances.iter().filter(|instance| instance.mesh == handle);
-    let open = lets_through(scene, mesh, instances.map(|instance| instance.material));
-    let first_face = push_triangles(mesh, &Affine3A::IDENTITY, None, &open, out, &mut triangles);
+    let extras = Extras::of(scene, mesh, instances.map(|instance| instance.material));
+    let first_face = push_triangles(mesh, &Affine3A::IDENTITY, None, &extras, out, &mut triangles);
     let bounds = bounds_of(&triangles);
     let (root, depth) = out.push_tree(triangles)?;
     Ok(MeshTree { root, depth, bounds, first_face })

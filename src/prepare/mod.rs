@@ -12,6 +12,7 @@ mod geometry;
 mod lights;
 mod materials;
 mod medium;
+mod tangents;
 mod textures;
 mod triangles;
 mod units;
@@ -140,6 +141,10 @@ pub struct Features {
     pub opacity: bool,
     /// Surfaces that colour what they let through.
     pub filter: bool,
+    /// Bumps.
+    pub bump: bool,
+    /// Normals from pictures.
+    pub normal_map: bool,
     /// Glass that absorbs.
     pub medium: bool,
     /// A texture that depends on the width of a pixel.

@@ -158,6 +158,8 @@ pub fn defines(
         flag("HAS_DIELECTRIC", material(MATERIAL_DIELECTRIC));
         flag("HAS_MEDIUM", features.medium);
         flag("HAS_FOOTPRINT", features.footprint);
+        flag("HAS_BUMP", features.bump);
+        flag("HAS_NORMAL_MAP", features.normal_map);
         flag("HAS_METAL_INDEX", features.metal_index);
         flag("ANISOTROPIC", features.anisotropic);
         flag("TEXTURED_EMISSION", features.textured_inputs & 1 << (2 * INPUT_EMISSION) != 0);

@@ -13,7 +13,7 @@ mod store;
 mod texture;
 
 pub use camera::{Aperture, Camera, FovAxis, Lens};
-pub use detail::{Detail, Opacity};
+pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub use light::{Environment, Light};

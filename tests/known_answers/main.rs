@@ -21,6 +21,7 @@ mod offset;
 mod opacity;
 mod paths;
 mod planes;
+mod relief;
 mod sizes;
 mod texture;
 mod traversal;

@@ -15,8 +15,7 @@ fn round_things(size: f32) -> Scene {
     let brushed = Surface::Conductor(Conductor {
         reflectance: grey(0.8),
         fresnel: Fresnel::None,
-        alpha_u: Value::Constant(0.1),
-        alpha_v: Value::Constant(0.5),
+        roughness: Roughness::alphas(Value::Constant(0.1), Value::Constant(0.5)),
     });
     let brushed = s.material(brushed, None);
     s.sphere(at(0.0, 0.0, 0.0), size, white);

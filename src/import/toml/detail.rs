@@ -1,10 +1,11 @@
 //! What a material does to the surface itself.
 
+use super::keys::{BUMP, NORMAL_MAP};
 use super::reader::Reader;
 use super::text::Limits;
-use super::view::View;
+use super::view::{Item, View};
 use crate::Result;
-use crate::scene::{Detail, Opacity, Value};
+use crate::scene::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents, Value};
 use glam::Vec3;
 
 /// What an opacity and a filter may be.
@@ -12,7 +13,47 @@ const SHARE: Limits = Limits::From(0.0, 1.0);
 
 impl Reader<'_> {
     pub fn detail(&self, view: &View<'_>) -> Result<Detail> {
-        Ok(Detail { opacity: self.opacity(view)? })
+        let default = Detail::default();
+        let normals = view.get("bump").or(view.get("normal_map"));
+        for key in ["soften_terminator", "keep_visible"] {
+            if let (Some(item), None) = (view.get(key), normals) {
+                let error = item.error(format!("{} needs `bump` or `normal_map`", item.name()));
+                return Err(error.help("add one of them"));
+            }
+        }
+        Ok(Detail {
+            opacity: self.opacity(view)?,
+            bump: view.get("bump").map(|item| self.bump(item)).transpose()?,
+            normal_map: view.get("normal_map").map(|item| self.normal_map(item)).transpose()?,
+            soften_terminator: view.bool_or("soften_terminator", default.soften_terminator)?,
+            keep_visible: view.bool_or("keep_visible", default.keep_visible)?,
+        })
+    }
+
+    fn bump(&self, item: Item<'_>) -> Result<Bump> {
+        let view = View::new(self.sources, item.node, item.name(), BUMP)?;
+        let rules = [
+            ("kernel", Derivative::Kernel),
+            ("forward", Derivative::Forward),
+            ("analytic", Derivative::Analytic),
+        ];
+        Ok(Bump {
+            texture: self.textures.find(view.need("texture")?)?,
+            height: view.f32_or("height", 1.0, Limits::Finite)?,
+            derivative: view.choice_or("derivative", Derivative::Kernel, &rules)?,
+            curvature: view.bool_or("curvature_term", true)?,
+        })
+    }
+
+    fn normal_map(&self, item: Item<'_>) -> Result<NormalMap> {
+        let view = View::new(self.sources, item.node, item.name(), NORMAL_MAP)?;
+        let tangents = [("mikktspace", Tangents::MikkTSpace), ("uv", Tangents::Uv)];
+        Ok(NormalMap {
+            texture: self.textures.find(view.need("texture")?)?,
+            green_down: view.choice_or("green", false, &[("up", false), ("down", true)])?,
+            strength: view.f32_or("strength", 1.0, Limits::From(-100.0, 100.0))?,
+            tangents: view.choice_or("tangents", Tangents::MikkTSpace, &tangents)?,
+        })
     }
 
     fn opacity(&self, view: &View<'_>) -> Result<Opacity> {

@@ -95,7 +95,19 @@ pub(super) const TEXTURE: Kinds = Kinds {
 };
 
 pub(super) const MATERIAL: Kinds = Kinds {
-    common: &["kind", "emission", "emission_scale", "two_sided", "opacity", "opacity_cutoff", "filter_color"],
+    common: &[
+        "kind",
+        "emission",
+        "emission_scale",
+        "two_sided",
+        "opacity",
+        "opacity_cutoff",
+        "filter_color",
+        "bump",
+        "normal_map",
+        "soften_terminator",
+        "keep_visible",
+    ],
     kinds: &[
         ("unlit", &["color"]),
         ("diffuse", &["color"]),
@@ -107,6 +119,11 @@ pub(super) const MATERIAL: Kinds = Kinds {
 
 /// The key of a table that stands for the value of a texture.
 pub(super) const TEXTURE_VALUE: &[&str] = &["texture"];
+
+/// Keys of `bump`.
+pub(super) const BUMP: &[&str] = &["texture", "height", "derivative", "curvature_term"];
+/// Keys of `normal_map`.
+pub(super) const NORMAL_MAP: &[&str] = &["texture", "green", "strength", "tangents"];
 
 pub(super) const MESH: &[&str] =
     &["file", "materials", "positions", "triangles", "polygons", "normals", "uvs", "smooth"];

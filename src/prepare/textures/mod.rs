@@ -123,13 +123,16 @@ fn build(scene: &Scene, uses: &[Use]) -> Result<(PreparedTextures, References)> 
 }
 
 /// What a scene asks of its textures. One that is asked for nothing and is no input of another is there to be evaluated.
-fn uses(scene: &Scene) -> [Use; 2] {
+fn uses(scene: &Scene) -> [Use; 3] {
     let materials = || scene.materials.iter().map(|(_, _, material)| material);
     let opacity: BTreeSet<_> = materials().flat_map(|material| material.detail.opacity.textures()).collect();
+    let details = || materials().map(|material| &material.detail);
+    let heights: BTreeSet<_> = details().filter_map(|detail| Some(detail.bump?.texture)).collect();
     let inputs: BTreeSet<_> = scene.textures.iter().flat_map(|(_, _, texture)| texture.inputs()).collect();
     let mut direct: BTreeSet<_> = scene.textures.iter().map(|(handle, ..)| handle).collect();
-    direct.retain(|handle| !inputs.contains(handle) && !opacity.contains(handle));
+    direct.retain(|handle| ![&inputs, &opacity, &heights].iter().any(|other| other.contains(handle)));
+    direct.extend(details().filter_map(|detail| Some(detail.normal_map?.texture)));
     direct.extend(materials().flat_map(|material| material.textures()));
     direct.extend(scene.environment.iter().filter_map(|environment| environment.texture()));
-    [("texture_evaluate", direct), ("texture_opacity", opacity)]
+    [("texture_evaluate", direct), ("texture_opacity", opacity), ("texture_height", heights)]
 }

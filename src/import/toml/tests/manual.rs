@@ -14,6 +14,8 @@ fn every_key() -> BTreeSet<(&'static str, &'static str)> {
         ("[mesh.NAME]", keys::MESH),
         ("[[instance]]", keys::INSTANCE),
         ("transform", keys::STEP),
+        ("bump", keys::BUMP),
+        ("normal_map", keys::NORMAL_MAP),
         ("[environment]", keys::ENVIRONMENT),
     ];
     let kinds: [(&str, &Kinds); 4] = [

@@ -238,7 +238,15 @@ fn materials_take_every_key() {
     let opacity = &material("chalk").detail.opacity;
     assert_eq!((opacity.value, opacity.cutoff), (Value::Texture(texture("plain")), Some(0.75)));
     assert_eq!(opacity.filter, Value::Constant(Vec3::new(1.0, 0.5, 0.25)));
-    assert!(material("paint").detail.opacity.is_whole());
+    let detail = &material("chalk").detail;
+    let derivative = Derivative::Forward;
+    let bump = Bump { texture: texture("squares"), height: 0.5, derivative, curvature: false };
+    assert_eq!(detail.bump, Some(bump));
+    let (texture_of_map, tangents) = (texture("plain"), Tangents::Uv);
+    let map = NormalMap { texture: texture_of_map, green_down: true, strength: 0.25, tangents };
+    assert_eq!(detail.normal_map, Some(map));
+    assert!(!detail.soften_terminator && !detail.keep_visible);
+    assert_eq!(material("paint").detail, Detail::default());
     assert_eq!(
         material("paint").surface,
         Surface::Phong {

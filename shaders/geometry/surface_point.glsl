@@ -1,0 +1,33 @@
+// A point on a surface as shading sees it.
+
+struct Surface {
+    vec3 position;        // world space
+    float reach;          // largest of the coordinates that position was computed from
+    vec3 object_position; // object space of its instance
+    vec3 geometric;       // unit normal of the geometry, outward
+    vec3 normal;          // unit shading normal, on the side of `geometric`
+    vec3 base_normal;     // the same without bumps and normal maps
+    bool softened;        // the light at the edge of bumps is softened
+    vec3 dpdu;            // ∂p/∂u in world space, not of unit length; 0 where u has no direction
+    vec3 dpdv;            // ∂p/∂v
+    vec3 object_dpdu;     // ∂p/∂u in object space
+    vec3 object_dpdv;
+    vec3 dndu;            // ∂normal/∂u
+    vec3 dndv;            // ∂normal/∂v
+    vec4 tangent;         // of the vertices, in world space, and the side of the bitangent; 0 = there is none
+    vec2 uv;
+    vec2 uv_rate;         // what u and v grow by in a unit of length of the world
+    float object_rate;    // units of object space in a unit of length of the world
+    uint material;
+    uint light;           // its light, or NONE
+    uint instance;
+    uint primitive;       // number of the triangle within its mesh, else 0
+};
+
+// The derivative of a unit normal, from a normal of any length that it is the direction of, and its derivative.
+vec3 unit_derivative(vec3 normal, vec3 derivative)
+{
+    float l = length(normal);
+    vec3 n = normal / l;
+    return (derivative - n * dot(n, derivative)) / l;
+}
