@@ -7,13 +7,7 @@ use common::probe::{cache, sources};
 use dapple::layout::{BINDINGS, Backend, Binding, BindingKind, WORKGROUP};
 use dapple::prepare::{self, Prepared, Stage};
 use dapple::render;
-use dapple::scene::{
-    Aperture, Bump, Channel, ColorSpace, Conductor, Coordinates, Derivative, Dielectric, Emission,
-    Environment, FilterKind, Fresnel, Gradient, Handle, Image, ImageTexture, Instance, Lens, Light, Material,
-    Mesh, MeshPart, Metric, Noise, NoiseSum, NormalMap, Opacity, PatternSpace, Roughness, Sampler, Scene,
-    Shape, ShapeKind, Surface, Tangents, TexelFilter, Texels, Texture, UvTransform, Value, WorleyFeature,
-    Wrap,
-};
+use dapple::scene::*;
 use dapple::shader::{BindingClass, Compiler, Reflection, Spirv, reflect, scan, translates_to_wgsl};
 use glam::{Affine3A, Mat3, Vec3};
 use std::collections::BTreeMap;
@@ -139,6 +133,47 @@ fn lobes() -> Scene {
     scene
 }
 
+/// The principled model with all that it has, and mixes one in the other.
+fn layers() -> Scene {
+    let mut scene = Scene::default();
+    let bytes = Texels::Rgba8(vec![[9, 99, 200, 255]; 2]);
+    let picture = texture(&mut scene, bytes, ColorSpace::Srgb);
+    let number = Value::Texture(picture);
+    let all = Principled {
+        base_color: Value::Texture(picture),
+        metallic: number,
+        roughness: Roughness { u: number, v: number, squared: true },
+        ior: number,
+        specular: number,
+        specular_color: Value::Texture(picture),
+        transmission: number,
+        absorption: Vec3::ONE,
+        thin: false,
+        clearcoat: number,
+        clearcoat_roughness: number,
+        sheen_color: Value::Texture(picture),
+        sheen_roughness: number,
+    };
+    let plain = material(&mut scene, Surface::Principled(Box::default()), None);
+    let all = material(&mut scene, Surface::Principled(Box::new(all)), None);
+    let mix = Mix { a: plain, b: all, amount: number };
+    let mixed = material(&mut scene, Surface::Mix(mix), Some(constant(1.0)));
+    let mix = Mix { a: mixed, b: plain, amount: Value::Constant(0.5) };
+    let again = material(&mut scene, Surface::Mix(mix), None);
+    place_shape(&mut scene, mixed, sphere());
+    place_triangle(&mut scene, again, 1);
+    scene
+}
+
+/// The principled model without what it can do without.
+fn bare() -> Scene {
+    let mut scene = Scene::default();
+    let plain = material(&mut scene, Surface::Principled(Box::default()), None);
+    place_triangle(&mut scene, plain, 1);
+    scene.environment = surroundings(constant(1.0));
+    scene
+}
+
 /// Every kind of texture, one in the other.
 fn trees() -> Scene {
     let mut scene = Scene::default();
@@ -219,13 +254,15 @@ fn textured() -> Scene {
 }
 
 /// Scenes that together switch every feature on and off.
-fn scenes() -> [(&'static str, Scene); 6] {
+fn scenes() -> [(&'static str, Scene); 8] {
     [
         ("empty", Scene::default()),
         ("one triangle and a point light", plain()),
         ("shapes, instances, area lights, a lens", shapes()),
         ("glass, metal, Phong, a constant environment behind a transparent film", lobes()),
         ("textures everywhere", textured()),
+        ("a principled material", bare()),
+        ("principled materials and mixes", layers()),
         ("every kind of texture", trees()),
     ]
 }

@@ -135,5 +135,6 @@ const uint DIMENSION_LIGHT = 1u;
 const uint DIMENSION_LOBE = 2u;
 const uint DIMENSION_BSDF = 3u;
 const uint DIMENSION_ROULETTE = 4u;
+const uint DIMENSION_MIX = 5u;
 
 uint bounce_dimension(uint depth, uint which) { return DIMENSION_BOUNCES + depth * DIMENSIONS_A_BOUNCE + which; }

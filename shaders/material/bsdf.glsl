@@ -5,12 +5,20 @@
 struct Bsdf {
     uint kind;       // MATERIAL_…
     uint mode;       // FRESNEL_…, or DIELECTRIC_…
-    vec3 color;      // reflectance or diffuse coefficient
-    vec3 specular;   // specular coefficient, or η of a conductor
+    vec3 color;      // reflectance, diffuse coefficient or base colour
+    vec3 specular;   // specular coefficient, factor on what a dielectric reflects head-on, or η of a conductor
     vec3 k;          // k of a conductor
     float ior;       // index behind the geometric surface over index in front of it
     float exponent;
     vec2 alpha;      // GGX widths; both 0 = smooth
+    // The rest is of the principled model
+    float metallic;
+    float weight;    // of what the dielectric reflects
+    float transmission;
+    float coat;
+    vec2 coat_alpha; // both the same
+    vec3 sheen;
+    float sheen_roughness;
 };
 
 struct BsdfSample {

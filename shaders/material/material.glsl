@@ -1,10 +1,11 @@
 // The menu of materials: record and textures to a Bsdf, and one switch a verb. Kinds that the scene does not use are
-// left out by switches of the variant: HAS_DIFFUSE, HAS_PHONG, HAS_CONDUCTOR, HAS_DIELECTRIC. ANISOTROPIC says that some
-// roughness has two widths.
+// left out by switches of the variant: HAS_DIFFUSE, HAS_PHONG, HAS_CONDUCTOR, HAS_DIELECTRIC, HAS_PRINCIPLED. ANISOTROPIC says
+// that some roughness has two widths.
 #include "material/diffuse.glsl"
 #include "material/phong.glsl"
 #include "material/conductor.glsl"
 #include "material/dielectric.glsl"
+#include "material/principled_verbs.glsl"
 #include "material/input.glsl"
 
 vec3 material_emission(Material m, TextureContext context) { return material_color(m, INPUT_EMISSION, context); }
@@ -23,6 +24,32 @@ vec2 material_alpha(Material m, TextureContext context)
     }
     return max(alpha.x, alpha.y) < BSDF_SMOOTH ? alpha : max(alpha, 1e-4);
 }
+
+#ifdef HAS_PRINCIPLED
+void material_principled(inout Bsdf b, Material m, TextureContext context)
+{
+    // There is no mirror among the lobes: what is smoother is just rough, and bends light a little
+    b.alpha = max(b.alpha, vec2(BSDF_SMOOTH));
+    vec2 index = material_numbers(m, INPUT_INDEX, context);
+    b.ior = clamp(index.x, 1.001, 100.0);
+    b.weight = min(index.y, 1.0);
+    vec2 kind = min(material_numbers(m, INPUT_METALLIC, context), vec2(1.0));
+    b.metallic = kind.x;
+    b.transmission = 0.0;
+#ifdef HAS_TRANSMISSION
+    b.transmission = kind.y;
+#endif
+#ifdef HAS_CLEARCOAT
+    vec2 coat = min(material_numbers(m, INPUT_CLEARCOAT, context), vec2(1.0));
+    b.coat = coat.x;
+    b.coat_alpha = max(coat.yy * coat.yy, vec2(BSDF_SMOOTH));
+#endif
+#ifdef HAS_SHEEN
+    b.sheen = min(material_color(m, INPUT_SHEEN, context), vec3(1.0));
+    b.sheen_roughness = clamp(material_numbers(m, INPUT_SHEEN_ROUGHNESS, context).x, SHEEN_LEAST_ROUGHNESS, 1.0);
+#endif
+}
+#endif
 
 // The number that kinds call by other names: index of refraction, exponent.
 float material_index(Material m, TextureContext context)
@@ -55,6 +82,9 @@ Bsdf material_bsdf(Material m, TextureContext context)
 #ifdef HAS_PHONG
     if (m.kind == MATERIAL_PHONG) phong_normalise(b);
 #endif
+#ifdef HAS_PRINCIPLED
+    if (m.kind == MATERIAL_PRINCIPLED) material_principled(b, m, context);
+#endif
     return b;
 }
 
@@ -73,6 +103,9 @@ vec3 bsdf_eval(Bsdf b, vec3 wo, vec3 wi)
 #endif
 #ifdef HAS_DIELECTRIC
     case MATERIAL_DIELECTRIC: return dielectric_eval(b, wo, wi);
+#endif
+#ifdef HAS_PRINCIPLED
+    case MATERIAL_PRINCIPLED: return principled_eval(b, wo, wi);
 #endif
     default: return vec3(0.0);
     }
@@ -94,6 +127,9 @@ float bsdf_pdf(Bsdf b, vec3 wo, vec3 wi)
 #ifdef HAS_DIELECTRIC
     case MATERIAL_DIELECTRIC: return dielectric_pdf(b, wo, wi);
 #endif
+#ifdef HAS_PRINCIPLED
+    case MATERIAL_PRINCIPLED: return principled_pdf(b, wo, wi);
+#endif
     default: return 0.0;
     }
 }
@@ -112,6 +148,9 @@ BsdfSample bsdf_sample(Bsdf b, vec3 wo, float lobe, vec2 u01)
 #endif
 #ifdef HAS_DIELECTRIC
     case MATERIAL_DIELECTRIC: return dielectric_sample(b, wo, lobe, u01);
+#endif
+#ifdef HAS_PRINCIPLED
+    case MATERIAL_PRINCIPLED: return principled_sample(b, wo, lobe, u01);
 #endif
     default: return BSDF_ABSORBED;
     }

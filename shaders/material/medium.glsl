@@ -12,5 +12,12 @@ vec3 medium_transmittance(uint medium, float way)
     return medium == NONE ? vec3(1.0) : exp(-medium_absorption(medium) * way);
 }
 
+// Whether a material is the boundary of glass with an inside.
+bool medium_is_inside(Material m)
+{
+    bool clear = m.kind == MATERIAL_DIELECTRIC || m.kind == MATERIAL_PRINCIPLED;
+    return clear && m.mode == DIELECTRIC_SOLID;
+}
+
 // The medium behind a boundary of glass, for a direction through it; `side` is its cosine with the geometric normal.
 uint medium_beyond(Bsdf b, uint material, float side) { return b.mode != DIELECTRIC_THIN && side < 0.0 ? material : NONE; }

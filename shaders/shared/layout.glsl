@@ -53,15 +53,22 @@ const uint MATERIAL_DIFFUSE = 1u; // Material kind: Lambertian.
 const uint MATERIAL_PHONG = 2u; // Material kind: modified Phong.
 const uint MATERIAL_CONDUCTOR = 3u; // Material kind: mirror or GGX metal.
 const uint MATERIAL_DIELECTRIC = 4u; // Material kind: smooth or GGX glass.
-const uint MATERIAL_WORDS = 8u; // Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
+const uint MATERIAL_PRINCIPLED = 5u; // Material kind: the model of glTF.
+const uint MATERIAL_MIX = 6u; // Material kind: one of two materials at each event.
+const uint MATERIAL_WORDS = 12u; // Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
 const uint MATERIAL_TWO_SIDED = 1u; // Material flag: it sends light out on both sides.
 const uint MATERIAL_SQUARED = 2u; // Material flag: what its roughness inputs give are roughnesses, to be squared.
 const uint INPUT_EMISSION = 1u; // ColorInput of all materials: radiance sent out.
-const uint INPUT_COLOR = 2u; // ColorInput: radiance, reflectance or diffuse coefficient.
+const uint INPUT_COLOR = 2u; // ColorInput: radiance, reflectance, diffuse coefficient or base colour.
 const uint INPUT_ROUGHNESS = 3u; // NumberInputs: GGX widths along ∂p/∂u and across it.
-const uint INPUT_SPECULAR = 4u; // ColorInput: specular coefficient of Phong, η of a conductor.
-const uint INPUT_ABSORPTION = 5u; // ColorInput: k of a conductor; absorption inside a dielectric, which takes no texture.
-const uint INPUT_INDEX = 6u; // NumberInputs: index of refraction of a dielectric, exponent of Phong.
+const uint INPUT_SPECULAR = 4u; // ColorInput: specular coefficient of Phong, η of a conductor, specular colour.
+const uint INPUT_ABSORPTION = 5u; // ColorInput: k of a conductor; absorption inside of glass, which takes no texture.
+const uint INPUT_INDEX = 6u; // NumberInputs: index of refraction of a dielectric, or exponent of Phong; weight of what a dielectric reflects.
+const uint INPUT_METALLIC = 7u; // NumberInputs: metallic, transmission.
+const uint INPUT_CLEARCOAT = 8u; // NumberInputs: clearcoat, its roughness.
+const uint INPUT_SHEEN = 9u; // ColorInput: sheen.
+const uint INPUT_SHEEN_ROUGHNESS = 10u; // NumberInputs: roughness of the sheen.
+const uint INPUT_MIX = 11u; // MixInput.
 const uint DETAIL_CURVATURE = 1u; // Detail flag: the bend of the surface itself, times the height, counts in a bump map.
 const uint DETAIL_SOFT_TERMINATOR = 2u; // Detail flag: the light at the edge of bumps is softened.
 const uint DETAIL_VISIBLE = 4u; // Detail flag: a normal that is turned away from the viewer is turned back.
@@ -304,6 +311,23 @@ NumberInputs number_inputs_unpack(uvec4 w0)
     r.first_texture = w0.y;
     r.second = uintBitsToFloat(w0.z);
     r.second_texture = w0.w;
+    return r;
+}
+
+struct MixInput {
+    float amount; // chance of the second material, or a factor on that of its texture
+    uint amount_texture; // its texture
+    uint first; // material for an amount of 0
+    uint second; // material for an amount of 1
+};
+const uint MIX_INPUT_WORDS = 1u;
+MixInput mix_input_unpack(uvec4 w0)
+{
+    MixInput r;
+    r.amount = uintBitsToFloat(w0.x);
+    r.amount_texture = w0.y;
+    r.first = w0.z;
+    r.second = w0.w;
     return r;
 }
 

@@ -26,7 +26,7 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
 #endif
 #ifdef HAS_MEDIUM
     // A light from infinity is left as it is: no way out of the glass is free.
-    bool through = bsdf.kind == MATERIAL_DIELECTRIC && wo.z * wi.z < 0.0;
+    bool through = wo.z * wi.z < 0.0;
     uint medium = through ? medium_beyond(bsdf, surface.material, side) : path.medium;
     if (!light.infinite) light.radiance *= medium_transmittance(medium, distance(surface.position, light.point));
 #endif

@@ -1,10 +1,13 @@
 // One scattering event of every path in the queue: emission, light sampling, and the next direction.
-// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_MEDIUM, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
+// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_GLASS, HAS_MEDIUM, HAS_MIX, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
 // TRANSPARENT_FILM and those of the menus.
 #include "stages/direct.glsl"
 #include "stages/relief.glsl"
 #ifdef HAS_FILTER
 #include "stages/filter.glsl"
+#endif
+#ifdef HAS_MIX
+#include "material/mix.glsl"
 #endif
 #include "stages/aov.glsl"
 
@@ -42,7 +45,7 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
     path.throughput *= s.weight;
     path.pdf = s.pdf;
     if (s.pdf > 0.0) path.diffuse_depth += 1u;
-#ifdef HAS_DIELECTRIC
+#ifdef HAS_GLASS
     if (s.through) {
         path.eta_scale *= s.eta * s.eta;
         path.medium = medium_beyond(bsdf, surface.material, side);
@@ -81,23 +84,28 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
 #endif
     path.flags |= PATH_COVERED;
     bool front = dot(ray.direction, surface.geometric) < 0.0;
-    Material material = material_fetch(surface.material);
-#ifdef HAS_MEDIUM
-    // Glass around the glass that a path has left is known by its boundary, met from behind.
-    bool from_inside = !front && material.kind == MATERIAL_DIELECTRIC && material.mode == DIELECTRIC_SOLID;
-    if (path.medium == NONE && from_inside) path.medium = surface.material;
-    path.throughput *= medium_transmittance(path.medium, distance(ray.origin, surface.position));
-#endif
     vec3 facing_normal = front ? surface.normal : -surface.normal;
     TextureContext context = context_of(surface, ray, facing_normal);
+    Material material = material_fetch(surface.material);
+    Material shining = material;
+#ifdef HAS_MIX
+    // A mix is one of its materials for the whole event, but for the light that it sends out.
+    surface.material = mix_pick(surface.material, context, sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_MIX)));
+    material = material_fetch(surface.material);
+#endif
+#ifdef HAS_MEDIUM
+    // Glass around the glass that a path has left is known by its boundary, met from behind.
+    if (path.medium == NONE && !front && medium_is_inside(material)) path.medium = surface.material;
+    path.throughput *= medium_transmittance(path.medium, distance(ray.origin, surface.position));
+#endif
 #if defined(HAS_BUMP) || defined(HAS_NORMAL_MAP)
     relieve(surface, context, -ray.direction);
     facing_normal = front ? surface.normal : -surface.normal;
 #endif
     Bsdf bsdf = material_bsdf(material, context);
     vec3 emitted = vec3(0.0);
-    if (front || (material.flags & MATERIAL_TWO_SIDED) != 0u) {
-        emitted = material_emission(material, context);
+    if (front || (shining.flags & MATERIAL_TWO_SIDED) != 0u) {
+        emitted = material_emission(shining, context);
         float pdf = 0.0;
         if (path.pdf > 0.0 && surface.light != NONE) pdf = light_pdf(surface.light, ray.origin, surface.position, surface.geometric);
         add_emission(path, emitted, pdf);
@@ -133,7 +141,7 @@ void main()
     if (!goes_on) {
         goes_on = shade(slot, path, ray, hit, taken.next_half);
         path_store(slot, path);
-#ifdef HAS_DIELECTRIC
+#ifdef HAS_GLASS
         path_store_medium(slot, path);
 #endif
         if (goes_on) ray_store(slot, ray);

@@ -117,24 +117,38 @@ constants! {
     MATERIAL_CONDUCTOR = 3;
     /// Material kind: smooth or GGX glass.
     MATERIAL_DIELECTRIC = 4;
+    /// Material kind: the model of glTF.
+    MATERIAL_PRINCIPLED = 5;
+    /// Material kind: one of two materials at each event.
+    MATERIAL_MIX = 6;
     /// Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
-    MATERIAL_WORDS = 8;
+    MATERIAL_WORDS = 12;
     /// Material flag: it sends light out on both sides.
     MATERIAL_TWO_SIDED = 1;
     /// Material flag: what its roughness inputs give are roughnesses, to be squared.
     MATERIAL_SQUARED = 2;
     /// ColorInput of all materials: radiance sent out.
     INPUT_EMISSION = 1;
-    /// ColorInput: radiance, reflectance or diffuse coefficient.
+    /// ColorInput: radiance, reflectance, diffuse coefficient or base colour.
     INPUT_COLOR = 2;
     /// NumberInputs: GGX widths along ∂p/∂u and across it.
     INPUT_ROUGHNESS = 3;
-    /// ColorInput: specular coefficient of Phong, η of a conductor.
+    /// ColorInput: specular coefficient of Phong, η of a conductor, specular colour.
     INPUT_SPECULAR = 4;
-    /// ColorInput: k of a conductor; absorption inside a dielectric, which takes no texture.
+    /// ColorInput: k of a conductor; absorption inside of glass, which takes no texture.
     INPUT_ABSORPTION = 5;
-    /// NumberInputs: index of refraction of a dielectric, exponent of Phong.
+    /// NumberInputs: index of refraction of a dielectric, or exponent of Phong; weight of what a dielectric reflects.
     INPUT_INDEX = 6;
+    /// NumberInputs: metallic, transmission.
+    INPUT_METALLIC = 7;
+    /// NumberInputs: clearcoat, its roughness.
+    INPUT_CLEARCOAT = 8;
+    /// ColorInput: sheen.
+    INPUT_SHEEN = 9;
+    /// NumberInputs: roughness of the sheen.
+    INPUT_SHEEN_ROUGHNESS = 10;
+    /// MixInput.
+    INPUT_MIX = 11;
     /// Detail flag: the bend of the surface itself, times the height, counts in a bump map.
     DETAIL_CURVATURE = 1;
     /// Detail flag: the light at the edge of bumps is softened.

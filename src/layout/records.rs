@@ -232,6 +232,18 @@ records! {
         second_texture: u32,
     }
 
+    /// What a mix is made of.
+    struct MixInput {
+        /// chance of the second material, or a factor on that of its texture
+        amount: f32,
+        /// its texture
+        amount_texture: u32,
+        /// material for an amount of 0
+        first: u32,
+        /// material for an amount of 1
+        second: u32,
+    }
+
     /// What a material does to the surface itself: its opacity and its relief. Texture fields are references, or NONE.
     struct Detail {
         /// how much of the surface is there, 0 to 1

@@ -4,20 +4,26 @@ use super::textures::References;
 use super::{Features, Prepared};
 use crate::layout::{
     ColorInput, DIELECTRIC_SOLID, DIELECTRIC_THIN, FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE,
-    FRESNEL_SCHLICK, INPUT_ABSORPTION, INPUT_COLOR, INPUT_EMISSION, INPUT_INDEX, INPUT_ROUGHNESS,
-    INPUT_SPECULAR, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG,
-    MATERIAL_SQUARED, MATERIAL_TWO_SIDED, MATERIAL_UNLIT, MATERIAL_WORDS, Material, MaterialHead, NONE,
-    NumberInputs,
+    FRESNEL_SCHLICK, INPUT_ABSORPTION, INPUT_CLEARCOAT, INPUT_COLOR, INPUT_EMISSION, INPUT_INDEX,
+    INPUT_METALLIC, INPUT_MIX, INPUT_ROUGHNESS, INPUT_SHEEN, INPUT_SHEEN_ROUGHNESS, INPUT_SPECULAR,
+    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_MIX, MATERIAL_PHONG,
+    MATERIAL_PRINCIPLED, MATERIAL_SQUARED, MATERIAL_TWO_SIDED, MATERIAL_UNLIT, MATERIAL_WORDS, Material,
+    MaterialHead, MixInput, NONE, NumberInputs,
 };
-use crate::scene::{self, Conductor, Dielectric, Fresnel, Roughness, Scene, Surface, Value};
+use crate::scene::{self, Conductor, Dielectric, Fresnel, Mix, Principled, Roughness, Scene, Surface, Value};
+use crate::{Error, Result};
 use glam::Vec3;
 
 /// The number of a material that has none.
 const NO_NUMBER: Value<f32> = Value::Constant(0.0);
 
 /// Fills `materials`, and the features that they switch on.
-pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) {
-    for (_, _, material) in scene.materials.iter() {
+pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) -> Result<()> {
+    for (handle, name, material) in scene.materials.iter() {
+        let Some(depth) = scene::Material::mix_depth(&scene.materials, handle) else {
+            return Err(Error::scene(scene::Material::endless(name)));
+        };
+        out.features.mix_depth = out.features.mix_depth.max(depth);
         let mut builder = Builder { textures, features: &mut out.features, record: empty() };
         builder.surface(&material.surface);
         builder.emission(material.emission.as_ref());
@@ -25,6 +31,7 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
         out.features.material_kinds |= 1 << record.head.kind;
         out.materials.push(record);
     }
+    Ok(())
 }
 
 fn empty() -> Material {
@@ -59,6 +66,8 @@ impl Builder<'_> {
             }
             Surface::Conductor(conductor) => self.conductor(conductor),
             Surface::Dielectric(dielectric) => self.dielectric(dielectric),
+            Surface::Principled(principled) => self.principled(principled),
+            Surface::Mix(mix) => self.mix(mix),
         }
     }
 
@@ -87,6 +96,34 @@ impl Builder<'_> {
         self.roughness(&dielectric.roughness);
         self.color(INPUT_ABSORPTION, &Value::Constant(dielectric.absorption));
         self.features.medium |= dielectric.absorption != Vec3::ZERO;
+    }
+
+    fn principled(&mut self, principled: &Principled) {
+        let solid = principled.has_inside();
+        self.kind(MATERIAL_PRINCIPLED);
+        // What no light goes through has two sides that are alike, as a sheet has
+        self.record.head.mode = if solid { DIELECTRIC_SOLID } else { DIELECTRIC_THIN };
+        self.color(INPUT_COLOR, &principled.base_color);
+        self.roughness(&principled.roughness);
+        self.numbers(INPUT_METALLIC, [principled.metallic, principled.transmission]);
+        self.numbers(INPUT_INDEX, [principled.ior, principled.specular]);
+        self.color(INPUT_SPECULAR, &principled.specular_color);
+        self.color(INPUT_ABSORPTION, &Value::Constant(principled.absorption));
+        self.numbers(INPUT_CLEARCOAT, [principled.clearcoat, principled.clearcoat_roughness]);
+        self.color(INPUT_SHEEN, &principled.sheen_color);
+        self.numbers(INPUT_SHEEN_ROUGHNESS, [principled.sheen_roughness, NO_NUMBER]);
+        self.features.medium |= solid && principled.absorption != Vec3::ZERO;
+        self.features.transmission |= principled.transmission != NO_NUMBER;
+        self.features.clearcoat |= principled.clearcoat != NO_NUMBER;
+        self.features.sheen |= principled.sheen_color != Value::Constant(Vec3::ZERO);
+    }
+
+    fn mix(&mut self, mix: &Mix) {
+        self.kind(MATERIAL_MIX);
+        let (amount, amount_texture) = self.number(mix.amount);
+        self.note(INPUT_MIX, 0, amount_texture);
+        let [first, second] = [mix.a, mix.b].map(|part| part.index() as u32);
+        self.put(INPUT_MIX, bytemuck::cast(MixInput { amount, amount_texture, first, second }));
     }
 
     fn emission(&mut self, emission: Option<&scene::Emission>) {
@@ -123,13 +160,17 @@ impl Builder<'_> {
     }
 
     fn numbers(&mut self, input: u32, values: [Value<f32>; 2]) {
-        let [(first, first_texture), (second, second_texture)] = values.map(|value| match value {
-            Value::Constant(number) => (number, NONE),
-            Value::Texture(handle) => (1.0, self.textures.reference(handle)),
-        });
+        let [(first, first_texture), (second, second_texture)] = values.map(|value| self.number(value));
         self.note(input, 0, first_texture);
         self.note(input, 1, second_texture);
         self.put(input, bytemuck::cast(NumberInputs { first, first_texture, second, second_texture }));
+    }
+
+    fn number(&self, value: Value<f32>) -> (f32, u32) {
+        match value {
+            Value::Constant(number) => (number, NONE),
+            Value::Texture(handle) => (1.0, self.textures.reference(handle)),
+        }
     }
 
     fn put(&mut self, input: u32, word: [u32; 4]) {

@@ -50,7 +50,11 @@ fn left(walk: impl Iterator<Item = (u32, bool)>) -> Vec<u32> {
 }
 
 fn is_glass(scene: &Scene, material: Handle<Material>) -> bool {
-    matches!(&scene.materials[material].surface, Surface::Dielectric(dielectric) if !dielectric.thin)
+    match &scene.materials[material].surface {
+        Surface::Dielectric(dielectric) => !dielectric.thin,
+        Surface::Principled(principled) => principled.has_inside(),
+        _ => false,
+    }
 }
 
 /// The line in the space of an object.

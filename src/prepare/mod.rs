@@ -137,6 +137,14 @@ pub struct Features {
     pub anisotropic: bool,
     /// Metal by its index of refraction.
     pub metal_index: bool,
+    /// A principled material that lets light through.
+    pub transmission: bool,
+    /// A principled material with a coat.
+    pub clearcoat: bool,
+    /// A principled material with sheen.
+    pub sheen: bool,
+    /// How many mixes of materials are one in the other.
+    pub mix_depth: u32,
     /// Surfaces that let rays through.
     pub opacity: bool,
     /// Surfaces that colour what they let through.
@@ -166,7 +174,7 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
         ..Prepared::default()
     };
     let textures = textures::prepare(scene, &mut out)?;
-    materials::prepare(scene, &textures, &mut out);
+    materials::prepare(scene, &textures, &mut out)?;
     details::prepare(scene, &textures, &mut out);
     let placed = geometry::prepare(scene, &mut out)?;
     let receivers = lights::receivers(scene, &placed);

@@ -3,7 +3,8 @@
 use super::Prepared;
 use crate::layout::{
     Backend, INPUT_EMISSION, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT,
-    LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, STACK_ENTRIES,
+    LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG,
+    MATERIAL_PRINCIPLED, STACK_ENTRIES,
 };
 use crate::scene::{FilterKind, Sampler, Scene};
 use std::collections::BTreeMap;
@@ -156,6 +157,12 @@ pub fn defines(
         flag("HAS_PHONG", material(MATERIAL_PHONG));
         flag("HAS_CONDUCTOR", material(MATERIAL_CONDUCTOR));
         flag("HAS_DIELECTRIC", material(MATERIAL_DIELECTRIC));
+        flag("HAS_PRINCIPLED", material(MATERIAL_PRINCIPLED));
+        flag("HAS_GLASS", material(MATERIAL_DIELECTRIC) || features.transmission);
+        flag("HAS_TRANSMISSION", features.transmission);
+        flag("HAS_CLEARCOAT", features.clearcoat);
+        flag("HAS_SHEEN", features.sheen);
+        flag("HAS_MIX", features.mix_depth > 0);
         flag("HAS_MEDIUM", features.medium);
         flag("HAS_FOOTPRINT", features.footprint);
         flag("HAS_BUMP", features.bump);
@@ -181,6 +188,9 @@ pub fn defines(
     }
     if stage == Stage::Shade {
         all.insert("TEXTURED_INPUTS".to_owned(), format!("{}u", features.textured_inputs));
+        if features.mix_depth > 0 {
+            all.insert("MIX_DEPTH".to_owned(), format!("{}u", features.mix_depth));
+        }
     }
     if stage.traverses() {
         all.insert("TRAVERSAL_STACK".to_owned(), stack_size(prepared.stack_entries).to_string());

@@ -1,6 +1,6 @@
 //! Materials: what a surface does with light.
 
-use super::{Detail, Handle, Texture, Value};
+use super::{Detail, Handle, Store, Texture, Value};
 use glam::Vec3;
 
 /// How the reflectance of a conductor depends on the angle.
@@ -74,6 +74,77 @@ pub struct Dielectric {
     pub thin: bool,
 }
 
+/// The model of glTF 2.0 (appendix B) with its extensions ior, specular, transmission, volume, clearcoat and sheen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Principled {
+    /// Reflectance of the diffuse base and of metal; colour of light that goes through. In [0, 1].
+    pub base_color: Value<Vec3>,
+    /// 0 is a dielectric, 1 is metal.
+    pub metallic: Value<f32>,
+    /// GGX widths; those below 0.001 count as 0.001.
+    pub roughness: Roughness,
+    /// Index of refraction of the dielectric, at least 1.
+    pub ior: Value<f32>,
+    /// Weight of what the dielectric reflects, in [0, 1].
+    pub specular: Value<f32>,
+    /// Factor on what the dielectric reflects head-on.
+    pub specular_color: Value<Vec3>,
+    /// Part of the base that lets light through and does not scatter it, in [0, 1].
+    pub transmission: Value<f32>,
+    /// Beer absorption a scene unit inside, per channel.
+    pub absorption: Vec3,
+    /// A sheet without an inside: light that goes through is not bent.
+    pub thin: bool,
+    /// Weight of a coat with an index of 1.5, in [0, 1].
+    pub clearcoat: Value<f32>,
+    /// Roughness of the coat; its square is the GGX width.
+    pub clearcoat_roughness: Value<f32>,
+    /// Reflectance of cloth fibres that are grazed, in [0, 1].
+    pub sheen_color: Value<Vec3>,
+    /// Roughness of the sheen, in [0.3, 1].
+    pub sheen_roughness: Value<f32>,
+}
+
+impl Default for Principled {
+    fn default() -> Self {
+        let (black, none) = (Value::Constant(Vec3::ZERO), Value::Constant(0.0));
+        let half = Value::Constant(0.5);
+        Self {
+            base_color: Value::Constant(Vec3::splat(0.5)),
+            metallic: none,
+            roughness: Roughness { u: half, v: half, squared: true },
+            ior: Value::Constant(1.5),
+            specular: Value::Constant(1.0),
+            specular_color: Value::Constant(Vec3::ONE),
+            transmission: none,
+            absorption: Vec3::ZERO,
+            thin: false,
+            clearcoat: none,
+            clearcoat_roughness: none,
+            sheen_color: black,
+            sheen_roughness: half,
+        }
+    }
+}
+
+impl Principled {
+    /// Whether it is the boundary of something that light goes through, with an inside.
+    pub fn has_inside(&self) -> bool {
+        !self.thin && self.transmission != Value::Constant(0.0)
+    }
+}
+
+/// Two materials, of which each scattering event sees one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mix {
+    /// For an amount of 0.
+    pub a: Handle<Material>,
+    /// For an amount of 1.
+    pub b: Handle<Material>,
+    /// Chance of `b`, in [0, 1].
+    pub amount: Value<f32>,
+}
+
 /// What a surface does with light.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Surface {
@@ -100,6 +171,10 @@ pub enum Surface {
     Conductor(Conductor),
     /// Glass, water.
     Dielectric(Dielectric),
+    /// The model of glTF.
+    Principled(Box<Principled>),
+    /// One of two materials.
+    Mix(Mix),
 }
 
 /// Light that a surface sends out by itself.
@@ -116,7 +191,7 @@ pub struct Emission {
 pub struct Material {
     /// What the surface does with light.
     pub surface: Surface,
-    /// What it sends out.
+    /// What it sends out. A mix sends this out and nothing of what its parts do.
     pub emission: Option<Emission>,
     /// What it does to the surface itself.
     pub detail: Detail,
@@ -128,23 +203,51 @@ impl Material {
         Self { surface, emission, detail: Detail::default() }
     }
 
+    /// Most mixes on the way from a material to one that is no mix.
+    pub const DEEPEST_MIX: u32 = 8;
+
+    /// What is wrong with a material that has no [`Self::mix_depth`].
+    pub fn endless(name: &str) -> String {
+        let most = Self::DEEPEST_MIX;
+        format!("material `{name}` is a mix of itself, or of more than {most} mixes one in the other")
+    }
+
+    /// How many mixes are one in the other; none when that has no end or is more than [`Self::DEEPEST_MIX`].
+    pub fn mix_depth(materials: &Store<Self>, handle: Handle<Self>) -> Option<u32> {
+        fn depth(materials: &Store<Material>, handle: Handle<Material>, room: u32) -> Option<u32> {
+            let Surface::Mix(mix) = &materials[handle].surface else { return Some(0) };
+            let room = room.checked_sub(1)?;
+            let [a, b] = [mix.a, mix.b].map(|part| depth(materials, part, room));
+            Some(1 + a?.max(b?))
+        }
+        depth(materials, handle, Self::DEEPEST_MIX)
+    }
+
     /// The textures that drive the light of it, not its detail.
     pub fn textures(&self) -> impl Iterator<Item = Handle<Texture>> {
+        let widths = |roughness: &Roughness| [roughness.u.texture(), roughness.v.texture()];
         let surface = match &self.surface {
-            Surface::Unlit { color } | Surface::Diffuse { color } => [color.texture(), None, None, None],
+            Surface::Unlit { color } | Surface::Diffuse { color } => vec![color.texture()],
             Surface::Phong { diffuse, specular, exponent } => {
-                [diffuse.texture(), specular.texture(), exponent.texture(), None]
+                vec![diffuse.texture(), specular.texture(), exponent.texture()]
             }
-            Surface::Conductor(Conductor { reflectance, fresnel, roughness: Roughness { u, v, .. } }) => {
+            Surface::Conductor(Conductor { reflectance, fresnel, roughness }) => {
                 let [first, second] = match fresnel {
                     Fresnel::Index { eta, k } => [eta.texture(), k.texture()],
                     _ => [reflectance.texture(), None],
                 };
-                [first, second, u.texture(), v.texture()]
+                [[first, second], widths(roughness)].concat()
             }
-            Surface::Dielectric(Dielectric { ior, roughness: Roughness { u, v, .. }, .. }) => {
-                [ior.texture(), u.texture(), v.texture(), None]
+            Surface::Dielectric(Dielectric { ior, roughness, .. }) => {
+                [&[ior.texture()][..], &widths(roughness)].concat()
             }
+            Surface::Principled(p) => {
+                let colors = [&p.base_color, &p.specular_color, &p.sheen_color].map(Value::texture);
+                let layers = [&p.clearcoat, &p.clearcoat_roughness, &p.sheen_roughness].map(Value::texture);
+                let base = [&p.metallic, &p.ior, &p.specular, &p.transmission].map(Value::texture);
+                [&colors[..], &layers, &base, &widths(&p.roughness)].concat()
+            }
+            Surface::Mix(mix) => vec![mix.amount.texture()],
         };
         let emission = self.emission.as_ref().and_then(|emission| emission.radiance.texture());
         surface.into_iter().chain([emission]).flatten()

@@ -17,7 +17,7 @@ pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub use light::{Environment, Light};
-pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Roughness, Surface};
+pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Mix, Principled, Roughness, Surface};
 pub use store::{Handle, Store};
 pub use texture::{
     Channel, ColorSpace, Coordinates, Gradient, Image, ImageTexture, Metric, Noise, NoiseSum, PatternSpace,

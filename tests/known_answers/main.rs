@@ -17,6 +17,7 @@ mod furnace;
 mod geometry;
 mod glass;
 mod light;
+mod material;
 mod offset;
 mod opacity;
 mod paths;

@@ -1,9 +1,6 @@
 //! `shaders/material`: every lobe against its own density, reciprocity and energy.
 
-use crate::common::chi2;
-use crate::common::directions::{CELLS_PHI, CELLS_Z, cell_integrals, cell_of, midpoints};
-use crate::common::probe::{Probe, Word, as_doubles, floats, three, vector};
-use crate::common::random::Random;
+use super::lobe::{Lobe, check_reciprocity, check_samples, directions, samples};
 use crate::common::twins::fresnel;
 use crate::common::twins::math::{cross, dot, normalize};
 use crate::common::twins::sampling::{DISK_ERROR, disk_inverse, turn, turns_apart};
@@ -11,114 +8,6 @@ use dapple::layout::{
     FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE, FRESNEL_SCHLICK, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC,
     MATERIAL_DIFFUSE, MATERIAL_PHONG,
 };
-
-/// A BSDF that is tested.
-#[derive(Clone, Copy, Default)]
-struct Lobe {
-    name: &'static str,
-    kind: u32,
-    mode: u32,
-    ior: f32,
-    exponent: f32,
-    color: [f32; 3],
-    specular: [f32; 3],
-    k: [f32; 3],
-    alpha: [f32; 2],
-}
-
-impl Lobe {
-    fn header(&self, wo: [f32; 3]) -> Vec<Word> {
-        vec![
-            [self.kind, self.mode, self.ior.to_bits(), self.exponent.to_bits()],
-            vector(self.color),
-            vector(self.specular),
-            vector(self.k),
-            floats(self.alpha[0], self.alpha[1], 0.0, 0.0),
-            vector(wo),
-        ]
-    }
-}
-
-const HEADER: usize = 6;
-
-const BSDF: &str = "
-    #define HAS_DIFFUSE
-    #define HAS_PHONG
-    #define HAS_CONDUCTOR
-    #define HAS_METAL_INDEX
-    #define HAS_DIELECTRIC
-    #include \"material/material.glsl\"
-    const uint HEADER = 6u;
-    vec3 vector(uint at) { return uintBitsToFloat(fetch_points(at).xyz); }
-    Bsdf probe_bsdf() {
-        uvec4 a = fetch_points(0u);
-        return Bsdf(a.x, a.y, vector(1u), vector(2u), vector(3u), uintBitsToFloat(a.z), uintBitsToFloat(a.w), vector(4u).xy);
-    }
-";
-
-/// A sample of a BSDF and what the other two verbs say of it.
-struct Sample {
-    u01: [f64; 2],
-    wi: [f64; 3],
-    pdf: f64,
-    weight: [f64; 3],
-    eta: f64,
-    through: bool,
-    eval: [f64; 3],
-    pdf_again: f64,
-}
-
-fn samples(lobe: &Lobe, wo: [f32; 3], count: usize, seed: u64) -> Vec<Sample> {
-    let glsl = format!(
-        "{BSDF} void probe(uint i) {{
-            Bsdf b = probe_bsdf();
-            vec3 wo = vector(5u);
-            vec3 u = vector(HEADER + i);
-            BsdfSample s = bsdf_sample(b, wo, u.z, u.xy);
-            store_values(3u * i, floatBitsToUint(vec4(s.wi, s.pdf)));
-            store_values(3u * i + 1u, floatBitsToUint(vec4(s.weight, s.through ? -s.eta : s.eta)));
-            store_values(3u * i + 2u, floatBitsToUint(vec4(bsdf_eval(b, wo, s.wi), bsdf_pdf(b, wo, s.wi))));
-        }}"
-    );
-    let mut random = Random(seed);
-    let mut inputs = lobe.header(wo);
-    inputs.extend((0..count).map(|_| floats(random.f32(), random.f32(), random.f32(), 0.0)));
-    let values = Probe::new().both(&glsl, &inputs, count, 3 * count);
-    let sample = |(v, u): (&[Word], &Word)| {
-        let [a, b, c] = [v[0], v[1], v[2]].map(as_doubles);
-        let [x, y, ..] = as_doubles(*u);
-        Sample {
-            u01: [x, y],
-            wi: three(a),
-            pdf: a[3],
-            weight: three(b),
-            eta: b[3].abs(),
-            through: b[3] < 0.0,
-            eval: three(c),
-            pdf_again: c[3],
-        }
-    };
-    values.chunks_exact(3).zip(&inputs[HEADER..]).map(sample).collect()
-}
-
-/// Density, value, and value with the directions exchanged, at every midpoint.
-fn over_the_sphere(lobe: &Lobe, wo: [f32; 3]) -> Vec<(f64, [f64; 3], [f64; 3])> {
-    let glsl = format!(
-        "{BSDF} void probe(uint i) {{
-            Bsdf b = probe_bsdf();
-            vec3 wo = vector(5u);
-            vec3 wi = vector(HEADER + i);
-            store_values(2u * i, floatBitsToUint(vec4(bsdf_eval(b, wo, wi), bsdf_pdf(b, wo, wi))));
-            store_values(2u * i + 1u, floatBitsToUint(vec4(bsdf_eval(b, wi, wo), 0.0)));
-        }}"
-    );
-    let mut inputs = lobe.header(wo);
-    inputs.extend(midpoints().iter().map(|m| floats(m[0], m[1], m[2], 0.0)));
-    let count = inputs.len() - HEADER;
-    let values = Probe::new().both(&glsl, &inputs, count, 2 * count);
-    let row = |v: &[Word]| (as_doubles(v[0])[3], three(as_doubles(v[0])), three(as_doubles(v[1])));
-    values.chunks_exact(2).map(row).collect()
-}
 
 fn lobes() -> Vec<Lobe> {
     let white = [1.0; 3];
@@ -157,76 +46,9 @@ fn lobes() -> Vec<Lobe> {
     ]
 }
 
-/// From nearly upright to nearly grazing, and from below.
-fn directions() -> [[f32; 3]; 4] {
-    [[0.6, 0.0, 0.8], [-0.48, 0.6, 0.64], [0.1, -0.97, 0.221_585], [0.36, 0.48, -0.8]]
-}
-
 #[test]
 fn samples_follow_the_density_and_weights_are_its_quotient() {
-    const COUNT: usize = 60_000;
-    let mut results = Vec::new();
-    for (i, lobe) in lobes().iter().enumerate() {
-        for (j, wo) in directions().into_iter().enumerate() {
-            let place = format!("{} from {wo:?}", lobe.name);
-            let mut observed = vec![0_u64; CELLS_Z * CELLS_PHI + 1];
-            let mut sums = [0.0; 3];
-            let mut squares = [0.0; 3];
-            for s in samples(lobe, wo, COUNT, (i * 10 + j) as u64) {
-                if s.weight == [0.0; 3] {
-                    observed[CELLS_Z * CELLS_PHI] += 1;
-                    continue;
-                }
-                assert!((s.wi.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-5, "{place}: {:?}", s.wi);
-                assert_eq!(s.through, s.wi[2] * f64::from(wo[2]) < 0.0, "{place}");
-                assert!(s.pdf > 0.0 && s.pdf.is_finite(), "{place}: pdf {}", s.pdf);
-                // The same function, perhaps inlined in another way: a few ulp, more where pow amplifies them
-                assert!((s.pdf_again / s.pdf - 1.0).abs() < 1e-4, "{place}: {} and {}", s.pdf, s.pdf_again);
-                // Radiance is scaled by 1 / η² on the way through: furnaces count energy
-                let energy = if s.through { s.eta * s.eta } else { 1.0 };
-                for c in 0..3 {
-                    let quotient = s.eval[c] * s.wi[2].abs() / s.pdf;
-                    let tolerance = 1e-4 * quotient.max(1e-3);
-                    assert!(
-                        (s.weight[c] - quotient).abs() < tolerance,
-                        "{place}: {} {quotient}",
-                        s.weight[c]
-                    );
-                    sums[c] += s.weight[c] * energy;
-                    squares[c] += (s.weight[c] * energy).powi(2);
-                }
-                observed[cell_of(s.wi)] += 1;
-            }
-            for c in 0..3 {
-                let mean = sums[c] / COUNT as f64;
-                let sigma = ((squares[c] / COUNT as f64 - mean * mean).max(0.0) / COUNT as f64).sqrt();
-                assert!(mean <= 1.0 + 1e-5 + 4.0 * sigma, "{place}: a furnace gives {mean} ± {sigma}");
-            }
-
-            // A lobe that goes below the surface is absorbed there, whatever its density says
-            let both_sides = lobe.kind == MATERIAL_DIELECTRIC;
-            let density = over_the_sphere(lobe, wo);
-            let everywhere: f64 = cell_integrals(density.iter().map(|d| d.0)).iter().sum();
-            // Facets throw a part of the light under the surface, where their density is 0
-            let least = if matches!(lobe.kind, MATERIAL_DIFFUSE | MATERIAL_PHONG) { 0.998 } else { 0.0 };
-            assert!((least..1.002).contains(&everywhere), "{place}: the density integrates to {everywhere}");
-            let kept = density
-                .iter()
-                .zip(midpoints())
-                .map(|(d, wi)| if both_sides || wi[2] * wo[2] > 0.0 { d.0 } else { 0.0 });
-            let mut expected: Vec<f64> = cell_integrals(kept).iter().map(|e| e * COUNT as f64).collect();
-            let rest = COUNT as f64 - expected.iter().sum::<f64>();
-            assert!(rest > -0.002 * COUNT as f64, "{place}: {rest}");
-            expected.push(rest.max(0.0));
-            if rest < 0.002 * COUNT as f64 {
-                // What is absorbed is within the error of the integral: leave it out
-                let last = expected.len() - 1;
-                expected[last] = observed[last].max(1) as f64;
-            }
-            results.push((place, chi2::test(&observed, &expected)));
-        }
-    }
-    chi2::accept(&results);
+    check_samples(&lobes());
 }
 
 #[test]
@@ -271,35 +93,7 @@ fn lobes_go_back_to_the_square() {
 
 #[test]
 fn lobes_are_reciprocal() {
-    for lobe in lobes() {
-        for wo in directions() {
-            for ((_, there, back), wi) in over_the_sphere(&lobe, wo).into_iter().zip(midpoints()) {
-                // Radiance in glass is η² times as dense (Veach 1997, section 5.2): from the side of index 1, f is
-                // 1 / η² of what it is the other way round
-                let through = lobe.kind == MATERIAL_DIELECTRIC && wi[2] * wo[2] < 0.0;
-                let index = f64::from(lobe.ior);
-                let scale = match (through, wo[2] > 0.0) {
-                    (false, _) => 1.0,
-                    (true, true) => index * index,
-                    (true, false) => 1.0 / (index * index),
-                };
-                for c in 0..3 {
-                    assert!(
-                        there[c].is_finite() && there[c] >= 0.0,
-                        "{} {wo:?} {wi:?}: {}",
-                        lobe.name,
-                        there[c]
-                    );
-                    let difference = (there[c] * scale - back[c]).abs();
-                    // pow with an exponent of 100 and the division by a small cosine amplify roundings; of 1 − F
-                    // few digits are left where a facet is grazed
-                    let floor = if through { 3e-5 } else { 1e-6 };
-                    let tolerance = 3e-4 * (there[c] * scale).max(back[c]) + floor;
-                    assert!(difference < tolerance, "{} {wo:?} {wi:?}: {there:?} {back:?}", lobe.name);
-                }
-            }
-        }
-    }
+    check_reciprocity(&lobes());
 }
 
 #[test]

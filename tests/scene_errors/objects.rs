@@ -133,6 +133,29 @@ fn textures_and_materials() {
             "[material.m]\nkind = 'diffuse'\ntwo_sided = true",
             "3:13: `two_sided` needs `emission`; add `emission`",
         ),
+        ("[material.m]\nkind = 'principled'\nior = 0.9", "3:7: `ior` is 0.9, must be from 1 to 100"),
+        (
+            "[material.m]\nkind = 'principled'\nabsorption = 1",
+            "3:14: `absorption` has no meaning without `transmission`; add `transmission`",
+        ),
+        (
+            "[material.m]\nkind = 'principled'\ncolor = 1",
+            "3:1: unknown key `color` in principled material `m`; it is a key of unlit, diffuse",
+        ),
+        ("[material.m]\nkind = 'mix'\na = 'm'", "1:1: `b` is missing in mix material `m`"),
+        (
+            "[material.m]\nkind = 'mix'\na = 'm'\nb = 'm'",
+            "1:11: material `m` is a mix of itself, or of more than 8 mixes one in the other",
+        ),
+        ("[material.m]\nkind = 'mix'\na = 'x'\nb = 'm'", "3:5: no material is named `x`; did you mean `m`?"),
+        (
+            "[material.m]\nkind = 'mix'\na = 'm'\nb = 'm'\nemission = 1",
+            "5:12: `emission` has no meaning for a mix, which sends out what its parts do; give it to `a` or `b`",
+        ),
+        (
+            "[material.m]\nkind = 'mix'\na = 'p'\nb = 'q'\n[material.p]\nkind = 'diffuse'\nemission = 1\ntwo_sided = true\n[material.q]\nkind = 'diffuse'\nemission = 1",
+            "1:11: one part of material `m` shines from both sides; give both the same `two_sided`",
+        ),
         ("[material.m]\nkind = 'diffuse'\nemission = -1", "3:12: `emission` is -1, must be at least 0"),
         (
             "[material.m]\nkind = 'diffuse'\nemission = 1e38\nemission_scale = 1e38",

@@ -94,6 +94,23 @@ pub(super) const TEXTURE: Kinds = Kinds {
     ],
 };
 
+const PRINCIPLED: &[&str] = &[
+    "base_color",
+    "metallic",
+    "roughness",
+    "alpha",
+    "ior",
+    "specular",
+    "specular_color",
+    "transmission",
+    "absorption",
+    "thin",
+    "clearcoat",
+    "clearcoat_roughness",
+    "sheen_color",
+    "sheen_roughness",
+];
+
 pub(super) const MATERIAL: Kinds = Kinds {
     common: &[
         "kind",
@@ -114,6 +131,8 @@ pub(super) const MATERIAL: Kinds = Kinds {
         ("phong", &["diffuse", "specular", "exponent"]),
         ("conductor", &["reflectance", "fresnel", "eta", "k", "roughness", "alpha"]),
         ("dielectric", &["ior", "roughness", "alpha", "absorption", "thin"]),
+        ("principled", PRINCIPLED),
+        ("mix", &["a", "b", "amount"]),
     ],
 };
 

@@ -7,7 +7,8 @@ use super::text::{Limits, number, shown};
 use super::view::{Item, View};
 use crate::Result;
 use crate::scene::{
-    Conductor, Dielectric, Emission, Fresnel, ImageTexture, Material, Roughness, Surface, Texture, Value,
+    Conductor, Dielectric, Emission, Fresnel, ImageTexture, Material, Principled, Roughness, Surface,
+    Texture, Value,
 };
 use glam::Vec3;
 
@@ -19,7 +20,21 @@ const MAX_EXPONENT: f32 = 1e6;
 const MAX_INDEX: f32 = 100.0;
 
 impl Reader<'_> {
-    pub fn material(&mut self, entry: &Entry) -> Result<()> {
+    /// All materials. Mixes may be made of others in any order, so each has its name before any is read.
+    pub fn materials(&mut self, entries: &[Entry]) -> Result<()> {
+        for entry in entries {
+            let surface = Surface::Diffuse { color: Value::Constant(Vec3::ZERO) };
+            let handle = self.scene.materials.add(&entry.key, Material::new(surface, None));
+            self.materials.add(&entry.key, entry.spot, handle);
+        }
+        let handles: Vec<_> = self.scene.materials.iter().map(|(handle, ..)| handle).collect();
+        for (entry, &handle) in entries.iter().zip(&handles) {
+            self.scene.materials[handle] = self.material(entry)?;
+        }
+        self.mixed_emission(entries, &handles)
+    }
+
+    fn material(&mut self, entry: &Entry) -> Result<Material> {
         let name = shown(&entry.key);
         let (view, kind) = View::of_kind(self.sources, &entry.node, format!("material `{name}`"), &MATERIAL)?;
         let surface = match kind {
@@ -43,13 +58,13 @@ impl Reader<'_> {
             }
             "conductor" => Surface::Conductor(self.conductor(&view)?),
             "dielectric" => Surface::Dielectric(self.dielectric(&view)?),
+            "principled" => Surface::Principled(Box::new(self.principled(&view)?)),
+            "mix" => Surface::Mix(self.mix(&view)?),
             _ => Surface::Diffuse { color: self.color_or(&view, "color", 0.5, REFLECTANCE)? },
         };
         let emission = self.emission(&view, &entry.key)?;
         let detail = self.detail(&view)?;
-        let handle = self.scene.materials.add(&entry.key, Material { surface, emission, detail });
-        self.materials.add(&entry.key, entry.spot, handle);
-        Ok(())
+        Ok(Material { surface, emission, detail })
     }
 
     fn color_or(&self, view: &View<'_>, key: &str, default: f32, limits: Limits) -> Result<Value<Vec3>> {
@@ -57,7 +72,13 @@ impl Reader<'_> {
         view.get(key).map_or(Ok(default), |item| self.color(item, limits))
     }
 
-    fn number_or(&self, view: &View<'_>, key: &str, default: f32, limits: Limits) -> Result<Value<f32>> {
+    pub(super) fn number_or(
+        &self,
+        view: &View<'_>,
+        key: &str,
+        default: f32,
+        limits: Limits,
+    ) -> Result<Value<f32>> {
         view.get(key).map_or(Ok(Value::Constant(default)), |item| self.number(item, limits))
     }
 
@@ -86,13 +107,7 @@ impl Reader<'_> {
         let ior = self.number_or(view, "ior", 1.5, Limits::AboveUpTo(0.0, MAX_INDEX))?;
         let roughness = self.roughness(view)?;
         let thin = view.bool_or("thin", false)?;
-        let absorption = match view.get("absorption") {
-            Some(item) if thin => {
-                return Err(item.error("`absorption` has no meaning for a thin sheet").help("remove it"));
-            }
-            Some(item) => super::value::color(item, Limits::AtLeast(0.0))?,
-            None => Vec3::ZERO,
-        };
+        let absorption = absorption(view, thin)?;
         let rough = view.get("roughness").or(view.get("alpha")).filter(|_| !roughness.is_smooth());
         if let Some(item) = rough {
             if thin {
@@ -107,6 +122,34 @@ impl Reader<'_> {
             }
         }
         Ok(Dielectric { ior, roughness, absorption, thin })
+    }
+
+    fn principled(&self, view: &View<'_>) -> Result<Principled> {
+        let part = Limits::From(0.0, 1.0);
+        let default = Principled::default();
+        let rough = view.get("roughness").or(view.get("alpha"));
+        let thin = view.bool_or("thin", false)?;
+        let principled = Principled {
+            base_color: self.color_or(view, "base_color", 0.5, REFLECTANCE)?,
+            metallic: self.number_or(view, "metallic", 0.0, part)?,
+            roughness: if rough.is_some() { self.roughness(view)? } else { default.roughness },
+            ior: self.number_or(view, "ior", 1.5, Limits::From(1.0, MAX_INDEX))?,
+            specular: self.number_or(view, "specular", 1.0, part)?,
+            specular_color: self.color_or(view, "specular_color", 1.0, Limits::AtLeast(0.0))?,
+            transmission: self.number_or(view, "transmission", 0.0, part)?,
+            absorption: absorption(view, thin)?,
+            thin,
+            clearcoat: self.number_or(view, "clearcoat", 0.0, part)?,
+            clearcoat_roughness: self.number_or(view, "clearcoat_roughness", 0.0, part)?,
+            sheen_color: self.color_or(view, "sheen_color", 0.0, REFLECTANCE)?,
+            sheen_roughness: self.number_or(view, "sheen_roughness", 0.5, part)?,
+        };
+        match view.get("absorption") {
+            Some(item) if !principled.has_inside() => Err(item
+                .error("`absorption` has no meaning without `transmission`")
+                .help("add `transmission`")),
+            _ => Ok(principled),
+        }
     }
 
     /// GGX widths from `roughness` (squared) or `alpha` (as it is).
@@ -157,6 +200,17 @@ impl Reader<'_> {
             }
         };
         Ok(Some(Emission { radiance, two_sided }))
+    }
+}
+
+/// What the inside of glass absorbs.
+fn absorption(view: &View<'_>, thin: bool) -> Result<Vec3> {
+    match view.get("absorption") {
+        Some(item) if thin => {
+            Err(item.error("`absorption` has no meaning for a thin sheet").help("remove it"))
+        }
+        Some(item) => super::value::color(item, Limits::AtLeast(0.0)),
+        None => Ok(Vec3::ZERO),
     }
 }
 

@@ -13,6 +13,7 @@ mod keys;
 mod light;
 mod material;
 mod mesh;
+mod mix;
 mod names;
 mod overrides;
 mod reader;

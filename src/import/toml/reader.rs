@@ -52,9 +52,7 @@ pub(super) fn read(
         reader.camera(&entry.node)?;
     }
     reader.textures(named(document, "texture"))?;
-    for entry in named(document, "material") {
-        reader.material(entry)?;
-    }
+    reader.materials(named(document, "material"))?;
     for (index, node) in listed(document, "shape") {
         reader.shape(index, node)?;
     }

@@ -221,6 +221,23 @@ fn texture_trees_take_every_key() {
 }
 
 #[test]
+fn mixes_are_made_of_materials_and_send_out_what_those_do() {
+    let scene = all();
+    let texture = |name: &str| scene.textures.iter().find(|(_, other, _)| *other == name).unwrap();
+    let material = |name: &str| scene.materials.iter().find(|found| found.1 == name).unwrap();
+    let Surface::Mix(rusty) = &material("rusty").2.surface else { panic!() };
+    assert_eq!((rusty.a, rusty.b), (material("car").0, material("glowing").0));
+    let veins = Value::Texture(texture("veins").0);
+    assert_eq!(rusty.amount, veins);
+    let glow = |x| Value::Constant(Vec3::new(x, 2.0 * x, 3.0 * x));
+    assert_eq!(material("glowing").2.emission.as_ref().unwrap().radiance, glow(1.5), "3/4 of that of chalk");
+    let (handle, _, mixed) = texture("emission of rusty");
+    assert_eq!(*mixed, Texture::Mix { a: Value::Constant(Vec3::ZERO), b: glow(1.5), amount: veins });
+    assert_eq!(material("rusty").2.emission.as_ref().unwrap().radiance, Value::Texture(handle));
+    assert!(material("car").2.emission.is_none());
+}
+
+#[test]
 fn materials_take_every_key() {
     let scene = all();
     let texture = |name: &str| scene.textures.iter().find(|(_, other, _)| *other == name).unwrap().0;
@@ -271,6 +288,27 @@ fn materials_take_every_key() {
     let (u, v) = (Value::Texture(texture("wood")), Value::Constant(0.25));
     assert_eq!(glass.roughness, Roughness { u, v, squared: true });
     let Surface::Dielectric(pane) = &material("pane").surface else { panic!("pane") };
+    let Surface::Principled(car) = &material("car").surface else { panic!("car") };
+    let number = Value::Constant;
+    let expected = Principled {
+        base_color: Value::Texture(texture("plain")),
+        metallic: Value::Texture(texture("wood")),
+        roughness: same(0.25),
+        ior: number(1.75),
+        specular: number(0.75),
+        specular_color: Value::Constant(Vec3::new(1.0, 0.5, 0.25)),
+        transmission: number(0.5),
+        absorption: Vec3::splat(2.0),
+        thin: false,
+        clearcoat: number(1.0),
+        clearcoat_roughness: Value::Texture(texture("wood")),
+        sheen_color: Value::Constant(Vec3::new(0.5, 0.0, 0.0)),
+        sheen_roughness: number(0.75),
+    };
+    assert_eq!(**car, expected);
+    let (plain, _) = read("[material.p]\nkind = 'principled'").unwrap();
+    let Some((_, _, plain)) = plain.materials.iter().next() else { panic!() };
+    assert_eq!(plain.surface, Surface::Principled(Box::default()));
     assert!(pane.thin && pane.ior == Value::Constant(1.5) && pane.roughness.is_smooth());
 }
 
@@ -337,7 +375,7 @@ fn lights_take_every_key() {
     assert_eq!(scene.lights[2], spot(Vec3::X, 30.0, 5.0));
     let distant = Light::Distant { direction: -Vec3::Y, irradiance: Vec3::ONE };
     assert_eq!(scene.lights[3..], [distant.clone(), distant]);
-    let areas = &scene.shapes[4..];
+    let areas = &scene.shapes[5..];
     assert_eq!(areas.len(), 3);
     for area in areas {
         let material = &scene.materials[area.material];
