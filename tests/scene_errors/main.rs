@@ -2,6 +2,7 @@
 
 mod details;
 mod files;
+mod materials;
 mod objects;
 
 use dapple::import::{Assets, read_scene_with};
