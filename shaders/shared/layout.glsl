@@ -395,66 +395,6 @@ ImageTexture image_texture_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
     return r;
 }
 
-struct Pattern {
-    vec4 row0; // row 0 of pattern from space
-    vec4 row1; // row 1 of pattern from space
-    vec4 row2; // row 2 of pattern from space
-};
-const uint PATTERN_WORDS = 3u;
-Pattern pattern_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
-{
-    Pattern r;
-    r.row0 = uintBitsToFloat(uvec4(w0.x, w0.y, w0.z, w0.w));
-    r.row1 = uintBitsToFloat(uvec4(w1.x, w1.y, w1.z, w1.w));
-    r.row2 = uintBitsToFloat(uvec4(w2.x, w2.y, w2.z, w2.w));
-    return r;
-}
-
-struct NoiseSum {
-    uint octaves; // number of octaves
-    float gain; // factor on the amplitude from one octave to the next
-    float lacunarity; // factor on the frequency from one octave to the next
-    float scale; // 1 / sum of the amplitudes
-};
-const uint NOISE_SUM_WORDS = 1u;
-NoiseSum noise_sum_unpack(uvec4 w0)
-{
-    NoiseSum r;
-    r.octaves = w0.x;
-    r.gain = uintBitsToFloat(w0.y);
-    r.lacunarity = uintBitsToFloat(w0.z);
-    r.scale = uintBitsToFloat(w0.w);
-    return r;
-}
-
-struct Ramp {
-    uint count; // number of stops
-    uint smooth_stops; // 1 when colours between stops follow 3t² − 2t³
-    uvec2 spare; // room
-};
-const uint RAMP_WORDS = 1u;
-Ramp ramp_unpack(uvec4 w0)
-{
-    Ramp r;
-    r.count = w0.x;
-    r.smooth_stops = w0.y;
-    r.spare = uvec2(w0.z, w0.w);
-    return r;
-}
-
-struct RampStop {
-    vec3 color; // its colour
-    float place; // its place
-};
-const uint RAMP_STOP_WORDS = 1u;
-RampStop ramp_stop_unpack(uvec4 w0)
-{
-    RampStop r;
-    r.color = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
-    r.place = uintBitsToFloat(w0.w);
-    return r;
-}
-
 struct TextureInput {
     vec3 value; // the constant
     uint at; // word of the record of the texture
@@ -554,5 +494,118 @@ EnvironmentCell environment_cell_unpack(uvec4 w0)
     r.alias = w0.y;
     r.chance = uintBitsToFloat(w0.z);
     r.spare = w0.w;
+    return r;
+}
+
+struct Pattern {
+    vec4 row0; // row 0 of pattern from space
+    vec4 row1; // row 1 of pattern from space
+    vec4 row2; // row 2 of pattern from space
+    float filter_width; // width of what a value stands for, in widths of the pixel
+    float w; // w of noise in four dimensions, when the shutter opens
+    float w_rate; // by how much w grows until it closes
+    uint spare; // room
+};
+const uint PATTERN_WORDS = 4u;
+Pattern pattern_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
+{
+    Pattern r;
+    r.row0 = uintBitsToFloat(uvec4(w0.x, w0.y, w0.z, w0.w));
+    r.row1 = uintBitsToFloat(uvec4(w1.x, w1.y, w1.z, w1.w));
+    r.row2 = uintBitsToFloat(uvec4(w2.x, w2.y, w2.z, w2.w));
+    r.filter_width = uintBitsToFloat(w3.x);
+    r.w = uintBitsToFloat(w3.y);
+    r.w_rate = uintBitsToFloat(w3.z);
+    r.spare = w3.w;
+    return r;
+}
+
+struct ValueLattice {
+    uint points; // points along each axis, after which it begins again
+    float amplitude; // amplitude of the first octave
+    float frequency; // points in a unit, in the first octave
+    uint octaves; // number of octaves
+};
+const uint VALUE_LATTICE_WORDS = 1u;
+ValueLattice value_lattice_unpack(uvec4 w0)
+{
+    ValueLattice r;
+    r.points = w0.x;
+    r.amplitude = uintBitsToFloat(w0.y);
+    r.frequency = uintBitsToFloat(w0.z);
+    r.octaves = w0.w;
+    return r;
+}
+
+struct Wall {
+    vec2 size; // length and height of a brick with its mortar
+    float joint; // width of the mortar
+    float offset; // how far a row is moved against the one below, in parts of the length
+};
+const uint WALL_WORDS = 1u;
+Wall wall_unpack(uvec4 w0)
+{
+    Wall r;
+    r.size = uintBitsToFloat(uvec2(w0.x, w0.y));
+    r.joint = uintBitsToFloat(w0.z);
+    r.offset = uintBitsToFloat(w0.w);
+    return r;
+}
+
+struct NodeNumber {
+    float number; // variation of bricks, marble, wood and granite; radius of dots; amount of a warp
+    uvec3 spare; // room
+};
+const uint NODE_NUMBER_WORDS = 1u;
+NodeNumber node_number_unpack(uvec4 w0)
+{
+    NodeNumber r;
+    r.number = uintBitsToFloat(w0.x);
+    r.spare = uvec3(w0.y, w0.z, w0.w);
+    return r;
+}
+
+struct NoiseSum {
+    uint octaves; // number of octaves
+    float gain; // factor on the amplitude from one octave to the next
+    float lacunarity; // factor on the frequency from one octave to the next
+    float scale; // 1 / sum of the amplitudes
+};
+const uint NOISE_SUM_WORDS = 1u;
+NoiseSum noise_sum_unpack(uvec4 w0)
+{
+    NoiseSum r;
+    r.octaves = w0.x;
+    r.gain = uintBitsToFloat(w0.y);
+    r.lacunarity = uintBitsToFloat(w0.z);
+    r.scale = uintBitsToFloat(w0.w);
+    return r;
+}
+
+struct Ramp {
+    uint count; // number of stops
+    uint smooth_stops; // 1 when what is between stops follows 3t² − 2t³
+    uvec2 spare; // room
+};
+const uint RAMP_WORDS = 1u;
+Ramp ramp_unpack(uvec4 w0)
+{
+    Ramp r;
+    r.count = w0.x;
+    r.smooth_stops = w0.y;
+    r.spare = uvec2(w0.z, w0.w);
+    return r;
+}
+
+struct RampStop {
+    vec3 color; // its colour
+    float place; // its place
+};
+const uint RAMP_STOP_WORDS = 1u;
+RampStop ramp_stop_unpack(uvec4 w0)
+{
+    RampStop r;
+    r.color = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.place = uintBitsToFloat(w0.w);
     return r;
 }

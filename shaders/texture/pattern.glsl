@@ -1,29 +1,68 @@
-// What texture trees are made of, beside pictures.
+// Where patterns are, and those that need no noise.
 #include "shared/bindings.glsl"
 #include "base/math.glsl"
-#include "texture/noise.glsl"
-#include "texture/worley.glsl"
+#include "texture/context.glsl"
 
-// A point in the space of the pattern whose record starts at word w.
+Pattern pattern_fetch(uint w)
+{
+    return pattern_unpack(fetch_textures(w), fetch_textures(w + 1u), fetch_textures(w + 2u), fetch_textures(w + 3u));
+}
+
+// A point in the space of the pattern whose record starts at word w, and w of noise in four dimensions.
 vec3 pattern_point(uint w, vec3 p)
 {
-    Pattern pattern = pattern_unpack(fetch_textures(w), fetch_textures(w + 1u), fetch_textures(w + 2u));
+    Pattern pattern = pattern_fetch(w);
     vec4 point = vec4(p, 1.0);
     return vec3(dot(pattern.row0, point), dot(pattern.row1, point), dot(pattern.row2, point));
 }
 
-// A constant input, and the word of the record of one that is a texture.
-vec4 texture_constant(uint w) { return vec4(texture_input_unpack(fetch_textures(w)).value, 1.0); }
-uint texture_input(uint w) { return texture_input_unpack(fetch_textures(w)).at; }
-
-vec4 texture_checker(vec3 p, vec4 even, vec4 odd)
+float pattern_w(uint w, float time)
 {
-    // Parity from the fraction: a float that is large is an even whole number
-    vec3 cell = floor(p);
+    Pattern pattern = pattern_fetch(w);
+    return pattern.w + time * pattern.w_rate;
+}
+
+// How wide a pixel is along the axes of the pattern: that of an ellipsoid which is `widths` wide along those of its space.
+vec3 pattern_widths(uint w, vec3 widths)
+{
+    Pattern pattern = pattern_fetch(w);
+    vec3 along = vec3(length(pattern.row0.xyz * widths), length(pattern.row1.xyz * widths), length(pattern.row2.xyz * widths));
+    return pattern.filter_width * along;
+}
+
+float widest(vec3 widths) { return max(widths.x, max(widths.y, widths.z)); }
+
+// Parity from the fraction: a float that is large is an even whole number.
+vec3 parity_of(vec3 cell)
+{
     vec3 half_cell = 0.5 * cell;
-    vec3 parity = half_cell - floor(half_cell);
-    float sum = parity.x + parity.y + parity.z;
+    return half_cell - floor(half_cell);
+}
+
+vec4 texture_checker(vec3 p, uint dimensions, vec4 even, vec4 odd)
+{
+    vec3 parity = parity_of(floor(p));
+    float sum = parity.x + parity.y + (dimensions == 3u ? parity.z : 0.0);
     return sum - floor(sum) > 0.25 ? odd : even;
+}
+
+// Mean over a width of the square wave that is 1 in even cells and −1 in odd ones. Its integral is a triangle wave.
+float square_wave(float x, float width)
+{
+    float low = floor(x - 0.5 * width);
+    float high = floor(x + 0.5 * width);
+    float place = x - 2.0 * floor(0.5 * x);
+    if (low == high) return place < 1.0 ? 1.0 : -1.0;
+    vec2 ends = vec2(place + 0.5 * width, place - 0.5 * width);
+    vec2 integral = abs(ends - 2.0 * floor(0.5 * ends) - 1.0);
+    return clamp((integral.y - integral.x) / width, -1.0, 1.0);
+}
+
+vec4 texture_checker_filtered(vec3 p, vec3 widths, uint dimensions, vec4 even, vec4 odd)
+{
+    float wave = square_wave(p.x, widths.x) * square_wave(p.y, widths.y);
+    if (dimensions == 3u) wave *= square_wave(p.z, widths.z);
+    return mix(even, odd, 0.5 - 0.5 * wave);
 }
 
 float gradient_linear(vec3 p) { return p.x; }
@@ -31,42 +70,3 @@ float gradient_cylindrical(vec3 p) { return length(p.xy); }
 float gradient_spherical(vec3 p) { return length(p); }
 
 vec4 texture_gradient(float distance, vec4 low, vec4 high) { return mix(low, high, clamp(distance, 0.0, 1.0)); }
-
-// The colour map at word w. A stop that is passed covers those before it.
-vec4 texture_ramp(uint w, vec4 value)
-{
-    Ramp ramp = ramp_unpack(fetch_textures(w));
-    uint first = w + RAMP_WORDS + TEXTURE_INPUT_WORDS;
-    RampStop last = ramp_stop_unpack(fetch_textures(first));
-    vec3 color = last.color;
-    float x = mean_component(value.rgb);
-    for (uint i = 1u; i < ramp.count; ++i) {
-        RampStop stop = ramp_stop_unpack(fetch_textures(first + i * RAMP_STOP_WORDS));
-        // Two stops at one place are a step
-        float t = clamp((x - last.place) / max(stop.place - last.place, 1e-20), 0.0, 1.0);
-        if (ramp.smooth_stops != 0u) t = t * t * (3.0 - 2.0 * t);
-        color = mix(color, stop.color, t);
-        last = stop;
-    }
-    return vec4(color, 1.0);
-}
-
-vec4 texture_mix(vec4 a, vec4 b, vec4 amount) { return mix(a, b, clamp(mean_component(amount.rgb), 0.0, 1.0)); }
-vec4 texture_add(vec4 a, vec4 b) { return vec4(a.rgb + b.rgb, 1.0); }
-vec4 texture_multiply(vec4 a, vec4 b) { return vec4(a.rgb * b.rgb, a.a * b.a); }
-vec4 texture_invert(vec4 value) { return vec4(1.0 - value.rgb, value.a); }
-
-// The sum of the record at word w; `creased` sums absolute values.
-vec4 texture_noise(uint w, vec3 p, bool creased, vec4 low, vec4 high)
-{
-    NoiseSum noise = noise_sum_unpack(fetch_textures(w));
-    float sum = 0.0;
-    float amplitude = noise.scale;
-    for (uint i = 0u; i < noise.octaves; ++i) {
-        float n = perlin_noise(p);
-        sum += amplitude * (creased ? abs(n) : n);
-        amplitude *= noise.gain;
-        p *= noise.lacunarity;
-    }
-    return mix(low, high, clamp(creased ? sum : 0.5 + 0.5 * sum, 0.0, 1.0));
-}

@@ -44,3 +44,27 @@ WORLEY(worley_chebyshev, metric_chebyshev)
 float worley_f1(vec2 nearest) { return nearest.x; }
 float worley_f2(vec2 nearest) { return nearest.y; }
 float worley_difference(vec2 nearest) { return nearest.y - nearest.x; }
+
+// Distance to the nearest plane between the nearest point and another (Quilez, Voronoi borders).
+float worley_edge(vec3 p)
+{
+    vec3 corner = floor(p);
+    bool known = max(abs(corner.x), max(abs(corner.y), abs(corner.z))) < 1e9;
+    ivec3 cell = known ? ivec3(corner) : ivec3(0);
+    vec3 inside = p - corner;
+    vec3 nearest = vec3(1e4);
+    for (int i = 0; i < 27; ++i) {
+        ivec3 step = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
+        vec3 to = vec3(step) + worley_point(cell + step) - inside;
+        if (dot(to, to) < dot(nearest, nearest)) nearest = to;
+    }
+    float edge = 1e9;
+    for (int i = 0; i < 27; ++i) {
+        ivec3 step = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
+        vec3 to = vec3(step) + worley_point(cell + step) - inside;
+        vec3 across = to - nearest;
+        float apart = dot(across, across);
+        if (apart > 1e-12) edge = min(edge, 0.5 * dot(to + nearest, across) * inversesqrt(apart));
+    }
+    return edge;
+}

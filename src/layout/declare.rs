@@ -27,7 +27,7 @@ macro_rules! glsl_type {
     };
 }
 
-/// Declares records: the Rust struct, its place in GLSL, and [`RECORDS`].
+/// Declares records: the Rust struct, its place in GLSL, and the list `ALL` of the file.
 macro_rules! records {
     ($( $(#[doc = $about:literal])* struct $name:ident { $( #[doc = $doc:literal] $field:ident: $ty:tt, )* } )*) => {
         $(
@@ -51,11 +51,7 @@ macro_rules! records {
             }
         )*
 
-        /// Every record, in the order of `layout.glsl`.
-        pub const RECORDS: &[RecordInfo] = &[ $( RecordInfo {
-            name: <$name as Record>::NAME,
-            fields: <$name as Record>::FIELDS,
-            words: if is_uniform(<$name as Record>::NAME) { 0 } else { <$name as Record>::WORDS },
-        }, )* ];
+        /// The records of this file.
+        pub(super) const ALL: &[RecordInfo] = &[ $( RecordInfo::of::<$name>(), )* ];
     };
 }

@@ -1,7 +1,7 @@
 //! Writes `shaders/shared/layout.glsl`.
 
 use super::constants::CONSTANTS;
-use super::records::{RECORDS, RecordInfo};
+use super::{RECORDS, RecordInfo};
 use std::fmt::Write as _;
 
 /// The text of `shaders/shared/layout.glsl`: constants, then each record with its unpacking function.

@@ -10,11 +10,13 @@ mod declare;
 mod bindings;
 mod constants;
 mod glsl;
+mod patterns;
 mod records;
 
 pub use bindings::{BINDINGS, Backend, Binding, BindingKind, bindings_glsl};
 pub use constants::*;
 pub use glsl::layout_glsl;
+pub use patterns::*;
 pub use records::*;
 
 /// Bytes of the word that kernels read.
@@ -55,6 +57,38 @@ pub struct Field {
     /// Position in 4-byte units.
     pub offset: u32,
 }
+
+/// What the writer of `layout.glsl` needs to know of a record.
+#[derive(Debug, Clone, Copy)]
+pub struct RecordInfo {
+    /// Name in GLSL.
+    pub name: &'static str,
+    /// Fields in order.
+    pub fields: &'static [Field],
+    /// Words; 0 for the uniform block, which is not unpacked.
+    pub words: u32,
+}
+
+impl RecordInfo {
+    /// `Frame` is the one record in a uniform block: its fields keep to std140 by their order.
+    const fn of<T: Record>() -> Self {
+        let (name, frame) = (T::NAME.as_bytes(), b"Frame");
+        let uniform = name.len() == frame.len() && name[0] == frame[0] && name[4] == frame[4];
+        Self { name: T::NAME, fields: T::FIELDS, words: if uniform { 0 } else { T::WORDS } }
+    }
+}
+
+/// Every record, in the order of `layout.glsl`.
+pub const RECORDS: &[RecordInfo] = &{
+    let mut all = [RecordInfo::of::<Frame>(); records::ALL.len() + patterns::ALL.len()];
+    let mut i = 0;
+    while i < all.len() {
+        let own = records::ALL.len();
+        all[i] = if i < own { records::ALL[i] } else { patterns::ALL[i - own] };
+        i += 1;
+    }
+    all
+};
 
 #[cfg(test)]
 mod tests {

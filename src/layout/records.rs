@@ -1,23 +1,6 @@
 //! The records that host and kernels share.
 
-use super::{Field, Record};
-
-/// What the writer of `layout.glsl` needs to know of a record.
-#[derive(Debug, Clone, Copy)]
-pub struct RecordInfo {
-    /// Name in GLSL.
-    pub name: &'static str,
-    /// Fields in order.
-    pub fields: &'static [Field],
-    /// Words; 0 for the uniform block, which is not unpacked.
-    pub words: u32,
-}
-
-/// `Frame` is the one record in a uniform block: its fields keep to std140 by their order.
-const fn is_uniform(name: &str) -> bool {
-    let (name, frame) = (name.as_bytes(), b"Frame");
-    name.len() == frame.len() && name[0] == frame[0] && name[4] == frame[4]
-}
+use super::{Field, Record, RecordInfo};
 
 records! {
     /// All that stays the same during a slice, in a uniform block (std140).
@@ -296,46 +279,6 @@ records! {
         scale: f32,
         /// FLAG_… bits, WRAP_… modes and CHANNEL_…
         flags: u32,
-    }
-
-    /// Where a pattern is. Rows of a 3×4 matrix.
-    struct Pattern {
-        /// row 0 of pattern from space
-        row0: [f32; 4],
-        /// row 1 of pattern from space
-        row1: [f32; 4],
-        /// row 2 of pattern from space
-        row2: [f32; 4],
-    }
-
-    /// A sum of noise.
-    struct NoiseSum {
-        /// number of octaves
-        octaves: u32,
-        /// factor on the amplitude from one octave to the next
-        gain: f32,
-        /// factor on the frequency from one octave to the next
-        lacunarity: f32,
-        /// 1 / sum of the amplitudes
-        scale: f32,
-    }
-
-    /// A colour map. Its input is the next word, and its stops are those after that.
-    struct Ramp {
-        /// number of stops
-        count: u32,
-        /// 1 when colours between stops follow 3t² − 2t³
-        smooth_stops: u32,
-        /// room
-        spare: [u32; 2],
-    }
-
-    /// A stop of a colour map.
-    struct RampStop {
-        /// its colour
-        color: [f32; 3],
-        /// its place
-        place: f32,
     }
 
     /// What a texture is made of: a constant, or another texture.

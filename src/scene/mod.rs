@@ -20,8 +20,9 @@ pub use light::{Environment, Light};
 pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Mix, Principled, Roughness, Surface};
 pub use store::{Handle, Store};
 pub use texture::{
-    Channel, ColorSpace, Coordinates, Gradient, Image, ImageTexture, Metric, Noise, NoiseSum, PatternSpace,
-    TexelFilter, Texels, Texture, UvTransform, Value, WorleyFeature, Wrap,
+    Brick, Channel, ColorSpace, Coordinates, Dots, Gradient, Image, ImageTexture, Metric, Noise, NoiseSum,
+    PatternSpace, Perlin, Spread, TexelFilter, Texels, Texture, UvTransform, Value, ValueNoise, VeinKind,
+    Veins, Warp, WorleyFeature, Wrap,
 };
 
 /// A whole scene. The handles in it index the [`Store`]s of the same scene.

@@ -5,6 +5,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod noise;
+mod patterns;
 mod trees;
 
 use common::probe::{cache, sources};

@@ -2,27 +2,39 @@
 
 use crate::common::random::Random;
 use crate::common::render::scene;
+use crate::common::twins::noise::pcg3d;
 use dapple::layout::{Backend, TexturePoint};
 use dapple::prepare;
 use dapple::scene::{
-    Coordinates, Gradient, Handle, Metric, Noise, NoiseSum, PatternSpace, Scene, Texture, Value,
+    Coordinates, Gradient, Handle, Metric, Noise, NoiseSum, PatternSpace, Perlin, Scene, Texture, Value,
     WorleyFeature,
 };
 use glam::{Affine3A, Vec3};
 
-const WHITE: Value<Vec3> = Value::Constant(Vec3::ONE);
-const BLACK: Value<Vec3> = Value::Constant(Vec3::ZERO);
+pub const WHITE: Value<Vec3> = Value::Constant(Vec3::ONE);
+pub const BLACK: Value<Vec3> = Value::Constant(Vec3::ZERO);
 
-fn space(coordinates: Coordinates) -> PatternSpace {
-    PatternSpace { coordinates, pattern_from_space: Affine3A::IDENTITY }
+pub fn space(coordinates: Coordinates) -> PatternSpace {
+    PatternSpace::new(coordinates)
 }
 
-fn noise(sum: NoiseSum, octaves: u32, gain: f32, lacunarity: f32) -> Noise {
-    Noise { sum, octaves, gain, lacunarity, low: BLACK, high: WHITE, space: space(Coordinates::Object) }
+pub fn noise(sum: NoiseSum, octaves: u32, gain: f32, lacunarity: f32) -> Noise {
+    Noise {
+        perlin: Perlin::default(),
+        sum,
+        octaves,
+        gain,
+        lacunarity,
+        normalize: true,
+        w: [0.0; 2],
+        low: BLACK,
+        high: WHITE,
+        space: space(Coordinates::Object),
+    }
 }
 
 /// A scene of textures, and the handle of the last.
-fn scene_of(textures: impl IntoIterator<Item = Texture>) -> (Scene, Handle<Texture>) {
+pub fn scene_of(textures: impl IntoIterator<Item = Texture>) -> (Scene, Handle<Texture>) {
     let mut scene = scene(8, 8, 1);
     let mut last = None;
     for texture in textures {
@@ -32,7 +44,7 @@ fn scene_of(textures: impl IntoIterator<Item = Texture>) -> (Scene, Handle<Textu
 }
 
 /// Values of a texture at points in space, whose uv is their x and y, with both back ends.
-fn values(scene: &Scene, handle: Handle<Texture>, points: &[Vec3]) -> Vec<[f64; 4]> {
+pub fn values(scene: &Scene, handle: Handle<Texture>, points: &[Vec3]) -> Vec<[f64; 4]> {
     let at = |p: &Vec3| TexturePoint {
         position: p.to_array(),
         object_position: p.to_array(),
@@ -46,19 +58,19 @@ fn values(scene: &Scene, handle: Handle<Texture>, points: &[Vec3]) -> Vec<[f64; 
     storage.into_iter().map(|value| value.map(f64::from)).collect()
 }
 
-fn reds(texture: Texture, points: &[Vec3]) -> Vec<f64> {
+pub fn reds(texture: Texture, points: &[Vec3]) -> Vec<f64> {
     let (scene, handle) = scene_of([texture]);
     values(&scene, handle, points).into_iter().map(|value| value[0]).collect()
 }
 
-fn points(count: usize, size: f32) -> Vec<Vec3> {
+pub fn points(count: usize, size: f32) -> Vec<Vec3> {
     let mut random = Random(5);
     (0..count).map(|_| Vec3::from_array(random.cube(size))).collect()
 }
 
 #[test]
 fn checkers_change_at_whole_numbers() {
-    let checker = |space| Texture::Checker { even: WHITE, odd: BLACK, space };
+    let checker = |space| Texture::Checker { dimensions: 3, even: WHITE, odd: BLACK, space };
     let cases = [
         (Vec3::new(0.5, 0.5, 0.5), 1.0, 1.0),
         (Vec3::new(1.5, 0.5, 0.5), 0.0, 0.0),
@@ -75,7 +87,7 @@ fn checkers_change_at_whole_numbers() {
     assert_eq!(reds(checker(space(Coordinates::Uv)), &at), cases.map(|case| case.2));
     // Cells of half the size, moved by a quarter along x
     let map = Affine3A::from_translation(Vec3::X * 0.25) * Affine3A::from_scale(Vec3::splat(0.5));
-    let small = PatternSpace { coordinates: Coordinates::World, pattern_from_space: map.inverse() };
+    let small = PatternSpace { pattern_from_space: map.inverse(), ..space(Coordinates::World) };
     let at = [0.3, 0.7, 0.8, 0.2].map(|x| Vec3::new(x, 0.1, 0.1));
     assert_eq!(reds(checker(small), &at), [1.0, 1.0, 0.0, 0.0]);
 }
@@ -131,6 +143,7 @@ fn octaves_add_up() {
 #[test]
 fn trees_join_their_inputs() {
     let checker = Texture::Checker {
+        dimensions: 3,
         even: Value::Constant(Vec3::new(0.2, 0.4, 0.6)),
         odd: Value::Constant(Vec3::new(1.0, 0.5, 0.25)),
         space: space(Coordinates::Object),
@@ -180,20 +193,6 @@ fn gradients_measure_distances() {
             assert!((found - expected).abs() < 1e-6, "{shape:?}: {found}, expected {expected}");
         }
     }
-}
-
-/// `pcg3d` of `texture/worley.glsl`.
-fn pcg3d(v: [u32; 3]) -> [u32; 3] {
-    let mut v = v.map(|x| x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
-    let mix = |v: &mut [u32; 3]| {
-        for (to, a, b) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
-            v[to] = v[to].wrapping_add(v[a].wrapping_mul(v[b]));
-        }
-    };
-    mix(&mut v);
-    v = v.map(|x| x ^ x >> 16);
-    mix(&mut v);
-    v
 }
 
 #[test]
@@ -249,7 +248,7 @@ fn ramps_map_places_to_colors() {
         // A gradient from −8 to 8 over as many units, so that no place is cut off
         let map = Affine3A::from_translation(Vec3::X * -8.0) * Affine3A::from_scale(Vec3::splat(16.0));
         let (low, high) = (Value::Constant(Vec3::splat(-8.0)), Value::Constant(Vec3::splat(8.0)));
-        let space = PatternSpace { coordinates: Coordinates::Object, pattern_from_space: map.inverse() };
+        let space = PatternSpace { pattern_from_space: map.inverse(), ..space(Coordinates::Object) };
         let (mut scene, gradient) =
             scene_of([Texture::Gradient { shape: Gradient::Linear, low, high, space }]);
         let ramp = Texture::Ramp { value: Value::Texture(gradient), stops: stops.to_vec(), smooth };
@@ -267,12 +266,13 @@ fn constants_are_folded_and_equal_trees_are_one() {
     let double =
         scene.textures.add("double", Texture::Add { a: Value::Texture(half), b: Value::Texture(half) });
     scene.textures.add("same", Texture::Multiply { a: Value::Texture(double), b: WHITE });
-    let checker = || Texture::Checker { even: WHITE, odd: BLACK, space: space(Coordinates::Uv) };
+    let checker =
+        || Texture::Checker { dimensions: 3, even: WHITE, odd: BLACK, space: space(Coordinates::Uv) };
     scene.textures.add("one", checker());
     scene.textures.add("two", checker());
     let prepared = prepare::prepare(&scene).unwrap();
     // 0.5, 1, and a pattern with two inputs
-    assert_eq!(prepared.textures.len(), 2 + 3 + 2);
+    assert_eq!(prepared.textures.len(), 2 + 4 + 2);
     assert_eq!(prepared.texture_glsl.matches("vec4 texture_").count(), 2 + 1, "{}", prepared.texture_glsl);
     assert!(!prepared.texture_glsl.contains("texture_add("));
 }
@@ -286,8 +286,12 @@ fn what_is_made_of_itself_is_refused() {
     assert!(error.message.contains("is made of itself"), "{error}");
     // 64 are allowed, one in the other; more are not
     let chain = |length: usize| {
-        let (mut scene, mut last) =
-            scene_of([Texture::Checker { even: WHITE, odd: BLACK, space: space(Coordinates::Uv) }]);
+        let (mut scene, mut last) = scene_of([Texture::Checker {
+            dimensions: 3,
+            even: WHITE,
+            odd: BLACK,
+            space: space(Coordinates::Uv),
+        }]);
         for _ in 1..length {
             last = scene.textures.add("link", Texture::Invert { value: Value::Texture(last) });
         }

@@ -73,24 +73,79 @@ const IMAGE: &[&str] = &[
     "scale",
     "invert",
 ];
-const FRACTAL: &[&str] = &["low", "high", "octaves", "gain", "lacunarity", "space", "transform"];
+const NOISE: &[&str] = &[
+    "low",
+    "high",
+    "variant",
+    "dimensions",
+    "w",
+    "w_rate",
+    "normalize",
+    "space",
+    "transform",
+    "filter_width",
+];
+const FRACTAL: &[&str] = &[
+    "low",
+    "high",
+    "octaves",
+    "gain",
+    "lacunarity",
+    "variant",
+    "dimensions",
+    "w",
+    "w_rate",
+    "normalize",
+    "space",
+    "transform",
+    "filter_width",
+];
+const VALUE_NOISE: &[&str] = &[
+    "low",
+    "high",
+    "dimensions",
+    "length",
+    "amplitude",
+    "frequency",
+    "octaves",
+    "space",
+    "transform",
+    "filter_width",
+];
+const VEINS: &[&str] =
+    &["octaves", "gain", "lacunarity", "variation", "stops", "space", "transform", "filter_width"];
+const BRICK: &[&str] =
+    &["brick", "mortar", "size", "joint", "offset", "variation", "space", "transform", "filter_width"];
+const WARP: &[&str] =
+    &["value", "by", "amount", "octaves", "gain", "lacunarity", "space", "transform", "filter_width"];
 
 pub(super) const TEXTURE: Kinds = Kinds {
     common: &["kind"],
     kinds: &[
         ("image", IMAGE),
         ("constant", &["color"]),
-        ("checker", &["even", "odd", "space", "transform"]),
-        ("noise", &["low", "high", "space", "transform"]),
+        ("checker", &["even", "odd", "dimensions", "space", "transform", "filter_width"]),
+        ("noise", NOISE),
         ("fbm", FRACTAL),
         ("turbulence", FRACTAL),
+        ("ridged", FRACTAL),
+        ("windy", &["low", "high", "octaves", "space", "transform", "filter_width"]),
+        ("value_noise", VALUE_NOISE),
+        ("marble", VEINS),
+        ("wood", VEINS),
+        ("granite", VEINS),
+        ("brick", BRICK),
+        ("dots", &["inside", "outside", "radius", "space", "transform", "filter_width"]),
         ("gradient", &["low", "high", "shape", "space", "transform"]),
         ("worley", &["low", "high", "feature", "metric", "space", "transform"]),
         ("ramp", &["value", "stops", "smooth"]),
+        ("curve", &["value", "points", "smooth"]),
         ("mix", &["a", "b", "amount"]),
         ("add", &["a", "b"]),
         ("multiply", &["a", "b"]),
+        ("scale", &["value", "factor"]),
         ("invert", &["value"]),
+        ("warp", WARP),
     ],
 };
 

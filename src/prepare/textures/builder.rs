@@ -1,8 +1,8 @@
 //! A texture tree, node by node: shapes and records.
 
-use super::glsl::{Input, Shape};
 use super::image::{brightness, record};
-use super::range::{Range, mean};
+use super::range::Range;
+use super::shape::{Input, Shape};
 use crate::layout::TextureInput;
 use crate::prepare::atlas::{Atlas, Place};
 use crate::scene::{Handle, Scene, Texture, Value};
@@ -61,65 +61,33 @@ impl Builder<'_> {
                 words.push(record(texture, image, self.atlas.address(place)));
                 self.keep(Shape::Image(place.format), words, None, brightness(texture, image))
             }
-            Texture::Checker { even, odd, space } => {
-                let shape = |inputs| Shape::Checker(space.coordinates, inputs);
-                self.pattern(space, [even, odd], 0.5, Words::default(), shape)
+            Texture::Checker { dimensions, even, odd, space } => {
+                let shape = |place, inputs| Shape::Checker(place, *dimensions, inputs);
+                self.between(space, [even, odd], 0.5, shape)
             }
             Texture::Gradient { shape, low, high, space } => {
-                let shape = |inputs| Shape::Gradient(*shape, space.coordinates, inputs);
-                self.pattern(space, [low, high], 0.5, Words::default(), shape)
+                self.between(space, [low, high], 0.5, |place, inputs| Shape::Gradient(*shape, place, inputs))
             }
             Texture::Worley { feature, metric, low, high, space } => {
-                let shape = |inputs| Shape::Worley(*feature, *metric, space.coordinates, inputs);
-                self.pattern(space, [low, high], 0.5, Words::default(), shape)
+                let shape = |place, inputs| Shape::Worley(*feature, *metric, place, inputs);
+                self.between(space, [low, high], 0.5, shape)
             }
-            Texture::Ramp { value, stops, smooth } => self.ramp(*value, stops, *smooth),
             Texture::Noise(noise) => self.noise(noise),
-            Texture::Mix { a, b, amount } => {
-                let [a, b, t] = [self.input(a), self.input(b), self.number(*amount)];
-                let share = t.range.mean.clamp(0.0, 1.0);
-                if let (Some(x), Some(y), Some(t)) = (a.constant, b.constant, t.constant) {
-                    return self.constant(x.lerp(y, mean(t).clamp(0.0, 1.0)));
-                }
-                let shape = Shape::Mix([a.input(), b.input(), t.input()]);
-                self.join(shape, Words::default(), &[a, b, t], a.range.mixed(b.range, share))
+            Texture::ValueNoise(noise) => self.value_noise(noise),
+            Texture::Veins(veins) => self.veins(veins),
+            Texture::Brick(brick) => self.brick(brick),
+            Texture::Dots(dots) => self.dots(dots),
+            Texture::Ramp { value, stops, smooth } => {
+                let value = self.number(*value);
+                self.ramp(value, stops, *smooth)
             }
-            Texture::Add { a, b } => {
-                let [a, b] = [self.input(a), self.input(b)];
-                if let (Some(x), Some(y)) = (a.constant, b.constant) {
-                    return self.constant(x + y);
-                }
-                let sum = |a: f64, b: f64| a + b;
-                let range = a.range.zip(b.range, sum, sum, sum);
-                self.join(Shape::Add([a.input(), b.input()]), Words::default(), &[a, b], range)
-            }
-            Texture::Multiply { a, b } => {
-                let [a, b] = [self.input(a), self.input(b)];
-                if let (Some(x), Some(y)) = (a.constant, b.constant) {
-                    return self.constant(x * y);
-                }
-                let ends = [
-                    a.range.min * b.range.min,
-                    a.range.min * b.range.max,
-                    a.range.max * b.range.min,
-                    a.range.max * b.range.max,
-                ];
-                let range = Range {
-                    min: ends.into_iter().fold(f64::INFINITY, f64::min),
-                    mean: a.range.mean * b.range.mean,
-                    max: ends.into_iter().fold(f64::NEG_INFINITY, f64::max),
-                };
-                self.join(Shape::Multiply([a.input(), b.input()]), Words::default(), &[a, b], range)
-            }
-            Texture::Invert { value } => {
-                let a = self.input(value);
-                if let Some(value) = a.constant {
-                    return self.constant(Vec3::ONE - value);
-                }
-                let Range { min, mean, max } = a.range;
-                let range = Range { min: 1.0 - max, mean: 1.0 - mean, max: 1.0 - min };
-                self.join(Shape::Invert([a.input()]), Words::default(), &[a], range)
-            }
+            Texture::Curve { value, points, smooth } => self.curve(value, points, *smooth),
+            Texture::Mix { a, b, amount } => self.mix(a, b, *amount),
+            Texture::Add { a, b } => self.add(a, b),
+            Texture::Multiply { a, b } => self.multiply(a, b),
+            Texture::Scale { value, factor } => self.scale(value, *factor),
+            Texture::Invert { value } => self.invert(value),
+            Texture::Warp(warp) => self.warp(warp),
         }
     }
 

@@ -1,109 +1,254 @@
 //! The generated file `generated/textures.glsl`: a function for each shape of texture tree that a scene has.
 
-use crate::layout::{NoiseSum as NoiseRecord, Pattern, Ramp, Record as _, TextureInput};
-use crate::prepare::atlas::Format;
-use crate::scene::{Coordinates, Gradient, Metric, NoiseSum, WorleyFeature};
+use super::shape::{Input, NoiseShape, Place, Shape};
+use crate::layout::{NodeNumber, NoiseSum as NoiseRecord, Pattern, Ramp, Record as _, TextureInput, Wall};
+use crate::scene::{Coordinates, Gradient, Metric, NoiseSum, Perlin, VeinKind, WorleyFeature};
 use std::fmt::Write as _;
 
-/// What a texture tree is, but for its numbers. Its inputs are shapes with smaller numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shape {
-    Image(Format),
-    Constant,
-    Checker(Coordinates, [Input; 2]),
-    Noise(NoiseSum, Coordinates, [Input; 2]),
-    Gradient(Gradient, Coordinates, [Input; 2]),
-    Worley(WorleyFeature, Metric, Coordinates, [Input; 2]),
-    Ramp([Input; 1]),
-    Mix([Input; 3]),
-    Add([Input; 2]),
-    Multiply([Input; 2]),
-    Invert([Input; 1]),
-}
-
-/// An input of a tree: a constant in its record, or a tree of a shape.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Input {
-    Constant,
-    Texture(u32),
-}
+/// Word of the record of a noise in that of a pattern that has a number.
+const NOISE_AFTER_NUMBER: u32 = Pattern::WORDS + NodeNumber::WORDS;
 
 impl Shape {
     /// Words of its record before those of its inputs.
     fn own_words(self) -> u32 {
         match self {
             Self::Checker(..) | Self::Gradient(..) | Self::Worley(..) => Pattern::WORDS,
-            Self::Ramp(..) => Ramp::WORDS,
-            Self::Noise(..) => Pattern::WORDS + NoiseRecord::WORDS,
+            Self::Ramp(..) | Self::Spline(..) | Self::Curve(..) => Ramp::WORDS,
+            Self::Noise(NoiseShape { sum: NoiseSum::Windy, .. }, ..) => {
+                Pattern::WORDS + 2 * NoiseRecord::WORDS
+            }
+            Self::Noise(..) | Self::ValueNoise(..) => Pattern::WORDS + NoiseRecord::WORDS,
+            Self::Brick(..) => Pattern::WORDS + Wall::WORDS + NodeNumber::WORDS,
+            Self::Dots(..) => Pattern::WORDS + NodeNumber::WORDS,
+            Self::WarpBy(..) => NodeNumber::WORDS,
+            Self::WarpNoise(..) => NOISE_AFTER_NUMBER + NoiseRecord::WORDS,
             _ => 0,
+        }
+    }
+
+    /// An input as an expression, seen from a context.
+    fn seen(self, inputs: &[Input], i: u32, context: &str) -> String {
+        let word = self.own_words() + i * TextureInput::WORDS;
+        match inputs[i as usize] {
+            Input::Constant => format!("texture_constant(at + {word}u)"),
+            Input::Texture(shape) => format!("texture_{shape}(texture_input(at + {word}u), {context})"),
         }
     }
 
     /// Its value as an expression of `at` and `context`.
     fn expression(self) -> String {
         let inputs = |inputs: &[Input]| {
-            let one = |(i, input): (usize, &Input)| {
-                let word = self.own_words() + i as u32 * TextureInput::WORDS;
-                match input {
-                    Input::Constant => format!("texture_constant(at + {word}u)"),
-                    Input::Texture(shape) => format!("texture_{shape}(texture_input(at + {word}u), context)"),
-                }
-            };
-            inputs.iter().enumerate().map(one).collect::<Vec<_>>().join(", ")
+            let one = |i| self.seen(inputs, i as u32, "context");
+            (0..inputs.len()).map(one).collect::<Vec<_>>().join(", ")
         };
         match &self {
             Self::Image(format) => format!("image_texture(at, {}u, context)", format.number()),
             Self::Constant => "texture_constant(at)".to_owned(),
-            Self::Checker(space, of) => format!("texture_checker({}, {})", point(*space), inputs(of)),
-            Self::Noise(sum, space, of) => {
-                let creased = *sum == NoiseSum::Turbulence;
-                let (word, point) = (Pattern::WORDS, point(*space));
-                format!("texture_noise(at + {word}u, {point}, {creased}, {})", inputs(of))
+            Self::Checker(place, dimensions, of) => {
+                let (point, of) = (place.point(), inputs(of));
+                match place.filtered {
+                    true => {
+                        format!("texture_checker_filtered({point}, {}, {dimensions}u, {of})", place.widths())
+                    }
+                    false => format!("texture_checker({point}, {dimensions}u, {of})"),
+                }
             }
-            Self::Gradient(shape, space, of) => {
+            Self::Noise(noise, place, of) => {
+                let value = if noise.normalized { noise.range() } else { "texture_raw" };
+                format!("{value}({}, {})", noise.sum_at(place), inputs(of))
+            }
+            Self::ValueNoise(dimensions, place, of) => {
+                let (word, point, width) = (Pattern::WORDS, place.point(), place.width());
+                format!(
+                    "texture_raw(0.5 + 0.5 * value_noise(at + {word}u, {point}, {width}, {dimensions}u), {})",
+                    inputs(of)
+                )
+            }
+            Self::Brick(place, of) => tiles("texture_brick", place, &inputs(of)),
+            Self::Dots(place, of) => tiles("texture_dots", place, &inputs(of)),
+            Self::Veins(kind, place) => veins(*kind, place),
+            Self::Gradient(shape, place, of) => {
                 let distance = match shape {
                     Gradient::Linear => "gradient_linear",
                     Gradient::Cylindrical => "gradient_cylindrical",
                     Gradient::Spherical => "gradient_spherical",
                 };
-                format!("texture_gradient({distance}({}), {})", point(*space), inputs(of))
+                format!("texture_gradient({distance}({}), {})", place.point(), inputs(of))
             }
-            Self::Worley(feature, metric, space, of) => {
-                let feature = match feature {
-                    WorleyFeature::F1 => "worley_f1",
-                    WorleyFeature::F2 => "worley_f2",
-                    WorleyFeature::Difference => "worley_difference",
-                };
-                let cells = match metric {
-                    Metric::Euclidean => "worley_euclidean",
-                    Metric::Manhattan => "worley_manhattan",
-                    Metric::Chebyshev => "worley_chebyshev",
-                };
-                format!("texture_gradient({feature}({cells}({})), {})", point(*space), inputs(of))
+            Self::Worley(feature, metric, place, of) => {
+                format!("texture_gradient({}, {})", worley(*feature, *metric, &place.point()), inputs(of))
             }
             Self::Ramp(of) => format!("texture_ramp(at, {})", inputs(of)),
+            Self::Spline(of) => format!("texture_spline(at, {})", inputs(of)),
+            Self::Curve(of) => format!("texture_curve(at, {})", inputs(of)),
             Self::Mix(of) => format!("texture_mix({})", inputs(of)),
             Self::Add(of) => format!("texture_add({})", inputs(of)),
             Self::Multiply(of) => format!("texture_multiply({})", inputs(of)),
+            Self::Scale(of) => format!("texture_scale({})", inputs(of)),
             Self::Invert(of) => format!("texture_invert({})", inputs(of)),
+            Self::WarpBy(of) => {
+                let by = self.seen(of, 1, "context");
+                self.seen(of, 0, &format!("warped(context, at, 2.0 * {by}.rgb - 1.0)"))
+            }
+            Self::WarpNoise(place, of) => {
+                // Points that share no cell of the lattice: three numbers that do not depend on one another
+                let noise = |offset: &str| {
+                    SUM.call(NOISE_AFTER_NUMBER, &format!("{} + {offset}", place.point()), place)
+                };
+                let [x, y, z] = ["vec3(0.0)", "vec3(31.4, 7.7, 59.3)", "vec3(-17.2, 43.9, -71.5)"].map(noise);
+                let word = Pattern::WORDS;
+                self.seen(of, 0, &format!("warped(context, at + {word}u, vec3({x}, {y}, {z}))"))
+            }
+        }
+    }
+
+    /// Functions that sum its noise.
+    fn sum(self) -> Option<NoiseShape> {
+        match self {
+            Self::Noise(noise, ..) => Some(noise),
+            Self::Veins(VeinKind::Granite, _) => Some(NoiseShape { sum: NoiseSum::Turbulence, ..SUM }),
+            Self::Veins(..) | Self::WarpNoise(..) => Some(SUM),
+            _ => None,
         }
     }
 }
 
-fn point(space: Coordinates) -> &'static str {
-    match space {
-        Coordinates::Uv => "pattern_point(at, vec3(context.uv, 0.0))",
-        Coordinates::Object => "pattern_point(at, context.object_position)",
-        Coordinates::World => "pattern_point(at, context.position)",
+/// The sum that bends marble, wood and the input of a warp.
+const SUM: NoiseShape =
+    NoiseShape { sum: NoiseSum::Fbm, perlin: Perlin { classic: false, dimensions: 3 }, normalized: false };
+
+impl NoiseShape {
+    /// From sum to colour, for a sum of amplitudes of 1.
+    fn range(&self) -> &'static str {
+        if self.sum == NoiseSum::Fbm { "texture_signed" } else { "texture_positive" }
+    }
+
+    fn basis(&self) -> String {
+        let variant = if self.perlin.classic { "classic" } else { "improved" };
+        format!("noise_{variant}_{}", self.perlin.dimensions)
+    }
+
+    /// Name of the function that sums it.
+    fn name(&self) -> String {
+        let sum = match self.sum {
+            NoiseSum::Fbm | NoiseSum::Windy => "fbm",
+            NoiseSum::Turbulence => "turbulence",
+            NoiseSum::Ridged => "ridged",
+        };
+        format!("{sum}_{}", self.basis())
+    }
+
+    /// That function: the terms and their mean.
+    fn function(&self) -> String {
+        let (shaped, mean) = match self.sum {
+            NoiseSum::Fbm | NoiseSum::Windy => ("octave_plain", "0.0"),
+            NoiseSum::Turbulence => ("octave_creased", "0.2"),
+            NoiseSum::Ridged => ("octave_ridged", "0.63"),
+        };
+        format!("NOISE_SUM({}, {}, {shaped}, {mean})", self.name(), self.basis())
+    }
+
+    /// The sum at a point, with the record at a word after the first.
+    fn call(&self, word: u32, point: &str, place: &Place) -> String {
+        format!("{}(at + {word}u, vec4({point}, 0.0), {})", self.name(), place.width())
+    }
+
+    /// Its sum in a pattern.
+    fn sum_at(&self, place: &Place) -> String {
+        let (name, word, point, width) = (self.name(), Pattern::WORDS, place.point(), place.width());
+        let w = if self.perlin.dimensions == 4 { "pattern_w(at, context.time)" } else { "0.0" };
+        if self.sum == NoiseSum::Windy {
+            let strength = format!("{name}(at + {word}u, 0.1 * vec4({point}, {w}), 0.1 * {width})");
+            let next = word + NoiseRecord::WORDS;
+            return format!("abs({strength}) * {name}(at + {next}u, vec4({point}, {w}), {width})");
+        }
+        format!("{name}(at + {word}u, vec4({point}, {w}), {width})")
     }
 }
+
+impl Place {
+    /// The point in the space of the pattern.
+    fn point(&self) -> String {
+        let point = match self.coordinates {
+            Coordinates::Uv => "vec3(context.uv, 0.0)",
+            Coordinates::Object => "context.object_position",
+            Coordinates::World => "context.position",
+        };
+        format!("pattern_point(at, {point})")
+    }
+
+    /// Widths of the pixel along the axes of the pattern.
+    fn widths(&self) -> String {
+        let widths = match self.coordinates {
+            _ if !self.filtered => return "vec3(0.0)".to_owned(),
+            Coordinates::Uv => "vec3(context.uv_footprint, 0.0)",
+            Coordinates::Object => "vec3(context.object_footprint)",
+            Coordinates::World => "vec3(context.footprint)",
+        };
+        format!("pattern_widths(at, {widths})")
+    }
+
+    /// The largest of them.
+    fn width(&self) -> String {
+        if self.filtered { format!("widest({})", self.widths()) } else { "0.0".to_owned() }
+    }
+}
+
+fn tiles(function: &str, place: &Place, inputs: &str) -> String {
+    format!("{function}(at + {}u, {}, {}, {inputs})", Pattern::WORDS, place.point(), place.widths())
+}
+
+fn veins(kind: VeinKind, place: &Place) -> String {
+    let (word, point, width) = (Pattern::WORDS, place.point(), place.width());
+    let sum = |offset: &str| SUM.call(NOISE_AFTER_NUMBER, &format!("{point}{offset}"), place);
+    let number = match kind {
+        VeinKind::Marble => format!("veins_marble(at + {word}u, {point}, {width}, {})", sum("")),
+        VeinKind::Wood => {
+            let (x, y) = (sum(""), sum(" + vec3(31.4, 7.7, 59.3)"));
+            format!("veins_wood(at + {word}u, {point}, {width}, vec2({x}, {y}))")
+        }
+        VeinKind::Granite => {
+            NoiseShape { sum: NoiseSum::Turbulence, ..SUM }.call(NOISE_AFTER_NUMBER, &point, place)
+        }
+    };
+    format!("vec4(vec3({number}), 1.0)")
+}
+
+fn worley(feature: WorleyFeature, metric: Metric, point: &str) -> String {
+    let feature = match feature {
+        WorleyFeature::F1 => "worley_f1",
+        WorleyFeature::F2 => "worley_f2",
+        WorleyFeature::Difference => "worley_difference",
+        WorleyFeature::Edge => return format!("worley_edge({point})"),
+    };
+    let cells = match metric {
+        Metric::Euclidean => "worley_euclidean",
+        Metric::Manhattan => "worley_manhattan",
+        Metric::Chebyshev => "worley_chebyshev",
+    };
+    format!("{feature}({cells}({point}))")
+}
+
+const HEAD: &str = "// Generated from the textures of the scene.
+#include \"texture/image.glsl\"
+#include \"texture/join.glsl\"
+#include \"texture/tiles.glsl\"
+#include \"texture/value_noise.glsl\"
+#include \"texture/veins.glsl\"
+
+";
 
 /// The file, with a function for each use of textures and the shapes that it may meet. A shape that is only ever an input of
 /// others has no case: on Mesa before 24.3 a case that no lane takes costs as much as any.
 pub(super) fn glsl(shapes: &[Shape], uses: &[(&str, Vec<bool>)]) -> String {
-    let mut text = String::from(
-        "// Generated from the textures of the scene.\n#include \"texture/image.glsl\"\n#include \"texture/pattern.glsl\"\n\n",
-    );
+    let mut text = String::from(HEAD);
+    let mut sums: Vec<String> =
+        shapes.iter().filter_map(|shape| shape.sum()).map(|sum| sum.function()).collect();
+    sums.sort();
+    sums.dedup();
+    for sum in sums {
+        _ = writeln!(text, "{sum}");
+    }
     for (i, shape) in shapes.iter().enumerate() {
         let value = shape.expression();
         _ = writeln!(text, "vec4 texture_{i}(uint at, TextureContext context) {{ return {value}; }}");

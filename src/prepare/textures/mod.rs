@@ -7,13 +7,15 @@
 mod builder;
 mod glsl;
 mod image;
+mod join;
 mod noise;
 mod pattern;
 mod range;
+mod shape;
 
 use super::atlas::Atlas;
 use super::{Prepared, rows};
-use crate::scene::{Handle, Scene, Texture};
+use crate::scene::{Handle, Scene, Texture, Warp};
 use crate::{Error, Result};
 use builder::{Builder, Node};
 use glsl::glsl;
@@ -31,6 +33,8 @@ pub struct PreparedTextures {
     pub glsl: String,
     /// The reference of each texture, by its handle.
     pub references: Vec<u32>,
+    /// Whether a value depends on the width of the pixel.
+    pub footprint: bool,
 }
 
 /// References of the textures of a scene, and how bright they are.
@@ -69,6 +73,7 @@ pub fn prepare_textures(scene: &Scene, asked: &[Handle<Texture>]) -> Result<Prep
 /// Fills `textures`, `texels` and `texture_glsl`.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
     let (textures, references) = build(scene, &uses(scene))?;
+    out.features.footprint |= textures.footprint;
     (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
     Ok(references)
 }
@@ -87,7 +92,7 @@ fn build(scene: &Scene, uses: &[Use]) -> Result<(PreparedTextures, References)> 
             places.insert(handle, atlas.place(scene, texture)?);
         }
     }
-    let has_noise = scene.textures.iter().any(|(_, _, texture)| matches!(texture, Texture::Noise(_)));
+    let has_noise = scene.textures.iter().any(|(_, _, texture)| reads_noise(texture));
     // The kernels look for it at the start
     let words = if has_noise { noise::words().collect() } else { Vec::new() };
     let done = vec![None; scene.textures.len()];
@@ -118,8 +123,15 @@ fn build(scene: &Scene, uses: &[Use]) -> Result<(PreparedTextures, References)> 
         texels: atlas.into_words(),
         glsl: glsl(&shapes, &roots),
         references: references.references.clone(),
+        footprint: shapes.iter().any(|shape| shape.sees_footprint()),
     };
     Ok((textures, references))
+}
+
+/// Whether a texture needs the permutation of gradient noise.
+fn reads_noise(texture: &Texture) -> bool {
+    use Texture::{Dots, Noise, Veins};
+    matches!(texture, Noise(_) | Dots(_) | Veins(_) | Texture::Warp(Warp::Noise { .. }))
 }
 
 /// What a scene asks of its textures. One that is asked for nothing and is no input of another is there to be evaluated.

@@ -1,4 +1,4 @@
-//! The permutation of gradient noise.
+//! The permutation and the gradients of noise.
 
 /// Of the reference implementation of improved noise (Perlin 2002).
 const PERMUTATION: [u32; 256] = [
@@ -16,9 +16,31 @@ const PERMUTATION: [u32; 256] = [
     66, 215, 61, 156, 180,
 ];
 
-/// The words of `permuted` in `texture/noise.glsl`: what i and i + 1 become.
+/// The words of `permuted` in `texture/noise.glsl`: what i and i + 1 become; and those of `classic_gradient` in
+/// `texture/perlin.glsl`: a vector in four dimensions that has no preferred direction, in signed parts of 16 bits.
 pub(super) fn words() -> impl Iterator<Item = [u32; 4]> {
-    (0..256).map(|i| [PERMUTATION[i], PERMUTATION[(i + 1) & 255], 0, 0])
+    let mut random = 0x853c_49e6_748f_ea9b;
+    (0..256).map(move |i| {
+        let [x, y, z, w] = gradient(&mut random).map(|v| u32::from((v * 32767.0).round() as i16 as u16));
+        [PERMUTATION[i], PERMUTATION[(i + 1) & 255], x | y << 16, z | w << 16]
+    })
+}
+
+/// Uniform in the unit ball, and not so near to the axis of z and w that 16 bits would tell few directions of x and y.
+fn gradient(random: &mut u64) -> [f64; 4] {
+    loop {
+        let v = [(); 4].map(|()| uniform(random));
+        let [x, y, z, w] = v.map(|v| v * v);
+        if x + y + z + w <= 1.0 && x + y > 1e-3 {
+            return v;
+        }
+    }
+}
+
+/// From −1 to 1: the upper half of a linear congruential generator (Knuth's MMIX).
+fn uniform(random: &mut u64) -> f64 {
+    *random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*random >> 32) as f64 * (2.0 / 4_294_967_295.0) - 1.0
 }
 
 #[cfg(test)]

@@ -1,10 +1,12 @@
 //! Textures: functions of a surface point that give a colour or a number.
 
 mod image;
+mod noise;
 mod pattern;
 
 pub use image::{Channel, ColorSpace, Image, ImageTexture, TexelFilter, Texels, UvTransform, Wrap};
-pub use pattern::{Coordinates, Gradient, Metric, Noise, NoiseSum, PatternSpace, WorleyFeature};
+pub use noise::{Noise, NoiseSum, Perlin, Spread, ValueNoise, VeinKind, Veins, Warp};
+pub use pattern::{Brick, Coordinates, Dots, Gradient, Metric, PatternSpace, WorleyFeature};
 
 use super::{Handle, Store};
 use glam::Vec3;
@@ -37,6 +39,8 @@ pub enum Texture {
     Constant(Vec3),
     /// Unit squares or cubes in turn, the one that begins at the origin even.
     Checker {
+        /// 2 for squares in x and y, 3 for cubes.
+        dimensions: u32,
         /// Where the sum of the whole parts of the coordinates is even.
         even: Value<Vec3>,
         /// Where it is odd.
@@ -44,8 +48,16 @@ pub enum Texture {
         /// Where the pattern is.
         space: PatternSpace,
     },
-    /// Perlin's improved noise and sums of it.
+    /// Perlin's noise and sums of it.
     Noise(Noise),
+    /// Values on a lattice, and sums of them.
+    ValueNoise(ValueNoise),
+    /// Marble, wood and granite.
+    Veins(Veins),
+    /// A wall.
+    Brick(Brick),
+    /// Dots at random places.
+    Dots(Dots),
     /// From `low` where the distance is 0 to `high` where it is 1 and beyond.
     Gradient {
         /// What the distance is.
@@ -79,6 +91,24 @@ pub enum Texture {
         /// Whether colours between stops follow 3t² − 2t³ in place of t.
         smooth: bool,
     },
+    /// A tone curve, on each channel.
+    Curve {
+        /// What it is applied to.
+        value: Value<Vec3>,
+        /// Values and what they become, by growing value; one at least. Beyond the ends the curve is flat.
+        points: Vec<(f32, f32)>,
+        /// Whether it follows 3t² − 2t³ between points in place of t.
+        smooth: bool,
+    },
+    /// value · factor.
+    Scale {
+        /// What is scaled.
+        value: Value<Vec3>,
+        /// By how much.
+        factor: Value<f32>,
+    },
+    /// A texture at points that are moved.
+    Warp(Warp),
     /// (1 − amount) · a + amount · b.
     Mix {
         /// For an amount of 0.
@@ -112,18 +142,24 @@ pub enum Texture {
 impl Texture {
     /// The textures that this one is made of.
     pub fn inputs(&self) -> impl Iterator<Item = Handle<Texture>> {
+        let two = |a: &Value<Vec3>, b: &Value<Vec3>| [a.texture(), b.texture(), None];
         let inputs = match self {
-            Self::Image(_) | Self::Constant(_) => [None; 3],
-            Self::Checker { even: a, odd: b, .. } | Self::Noise(Noise { low: a, high: b, .. }) => {
-                [a.texture(), b.texture(), None]
-            }
-            Self::Gradient { low, high, .. } | Self::Worley { low, high, .. } => {
-                [low.texture(), high.texture(), None]
-            }
+            Self::Image(_) | Self::Constant(_) | Self::Veins(_) => [None; 3],
+            Self::Checker { even: a, odd: b, .. }
+            | Self::Noise(Noise { low: a, high: b, .. })
+            | Self::ValueNoise(ValueNoise { low: a, high: b, .. })
+            | Self::Brick(Brick { brick: a, mortar: b, .. })
+            | Self::Dots(Dots { outside: a, inside: b, .. })
+            | Self::Gradient { low: a, high: b, .. }
+            | Self::Worley { low: a, high: b, .. }
+            | Self::Add { a, b }
+            | Self::Multiply { a, b } => two(a, b),
             Self::Ramp { value, .. } => [value.texture(), None, None],
             Self::Mix { a, b, amount } => [a.texture(), b.texture(), amount.texture()],
-            Self::Add { a, b } | Self::Multiply { a, b } => [a.texture(), b.texture(), None],
-            Self::Invert { value } => [value.texture(), None, None],
+            Self::Curve { value, .. } | Self::Invert { value } => [value.texture(), None, None],
+            Self::Scale { value, factor } => [value.texture(), factor.texture(), None],
+            Self::Warp(Warp::By { value, by, .. }) => two(value, by),
+            Self::Warp(Warp::Noise { value, .. }) => [value.texture(), None, None],
         };
         inputs.into_iter().flatten()
     }

@@ -1,7 +1,7 @@
 //! What patterns are functions of, and of what kind.
 
 use super::Value;
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 
 /// The coordinates that a pattern is a function of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -21,6 +21,15 @@ pub struct PatternSpace {
     pub coordinates: Coordinates,
     /// From these to those of the pattern.
     pub pattern_from_space: Affine3A,
+    /// How wide the part of the pattern is that a value stands for, in widths of the pixel: finer parts fade out; 0 keeps all.
+    pub filter_width: f32,
+}
+
+impl PatternSpace {
+    /// The coordinates themselves, filtered over the width of a pixel.
+    pub fn new(coordinates: Coordinates) -> Self {
+        Self { coordinates, pattern_from_space: Affine3A::IDENTITY, filter_width: 1.0 }
+    }
 }
 
 /// A distance to scattered points, of those in the 27 cells around.
@@ -32,6 +41,8 @@ pub enum WorleyFeature {
     F2,
     /// The difference of both: 0 where two cells meet.
     Difference,
+    /// To the plane between the nearest and another, where two cells meet. Euclidean only.
+    Edge,
 }
 
 /// How a distance is measured.
@@ -56,30 +67,34 @@ pub enum Gradient {
     Spherical,
 }
 
-/// How octaves of noise are summed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum NoiseSum {
-    /// n itself.
-    Fbm,
-    /// |n|: creases where the noise changes its sign (Perlin 1985).
-    Turbulence,
+/// A wall of bricks in rows along x. A brick with its part of the mortar is one cell of the wall.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Brick {
+    /// Of the bricks.
+    pub brick: Value<Vec3>,
+    /// Between them.
+    pub mortar: Value<Vec3>,
+    /// Length and height of a cell.
+    pub size: Vec2,
+    /// Width of the mortar.
+    pub joint: f32,
+    /// How far a row is moved against the one below, in parts of a cell.
+    pub offset: f32,
+    /// Bricks are lighter and darker by up to this part.
+    pub variation: f32,
+    /// Where the pattern is.
+    pub space: PatternSpace,
 }
 
-/// Σ gainⁱ n(lacunarityⁱ p) / Σ gainⁱ over octaves, with n the improved noise (Perlin 2002), which is within −1 and 1.
+/// Disks in about every other unit square of x and y, each somewhere inside its square (pbrt, `dots`).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Noise {
-    /// What is summed.
-    pub sum: NoiseSum,
-    /// Number of octaves; 1 is noise alone.
-    pub octaves: u32,
-    /// Factor on the amplitude from one octave to the next.
-    pub gain: f32,
-    /// Factor on the frequency from one octave to the next.
-    pub lacunarity: f32,
-    /// For a sum of −1, or of 0 where absolute values are summed.
-    pub low: Value<Vec3>,
-    /// For a sum of 1.
-    pub high: Value<Vec3>,
-    /// Where the pattern is; a cell of the lattice of the first octave has a side of 1.
+pub struct Dots {
+    /// Of the disks.
+    pub inside: Value<Vec3>,
+    /// Between them.
+    pub outside: Value<Vec3>,
+    /// Of a disk, at most ½.
+    pub radius: f32,
+    /// Where the pattern is.
     pub space: PatternSpace,
 }

@@ -5,6 +5,7 @@ pub mod fixed;
 pub mod fresnel;
 pub mod geometry;
 pub mod math;
+pub mod noise;
 pub mod random;
 pub mod sampling;
 pub mod texture;

@@ -3,6 +3,7 @@
 mod damage;
 mod files;
 mod manual;
+mod patterns;
 
 use super::{Assets, Warning, read_scene_with};
 use crate::scene::*;
@@ -163,12 +164,16 @@ fn texture_trees_take_every_key() {
     let find = |name: &str| scene.textures.iter().find(|(_, other, _)| *other == name).unwrap();
     let of = |name: &str| Value::Texture(find(name).0);
     let grey = |value| Value::Constant(Vec3::splat(value));
-    let object = PatternSpace { coordinates: Coordinates::Object, pattern_from_space: Affine3A::IDENTITY };
+    let object = PatternSpace::new(Coordinates::Object);
     let halved = PatternSpace {
         coordinates: Coordinates::World,
         pattern_from_space: Affine3A::from_scale(Vec3::splat(0.5)),
+        filter_width: 0.5,
     };
     let veins = Noise {
+        perlin: Perlin { classic: true, dimensions: 4 },
+        normalize: false,
+        w: [0.5, 2.0],
         sum: NoiseSum::Turbulence,
         octaves: 3,
         gain: 0.75,
@@ -179,7 +184,8 @@ fn texture_trees_take_every_key() {
     };
     assert_eq!(*find("veins").2, Texture::Noise(veins));
     let uv = PatternSpace { coordinates: Coordinates::Uv, ..object };
-    assert_eq!(*find("squares").2, Texture::Checker { even: of("mixed"), odd: grey(0.125), space: uv });
+    let squares = Texture::Checker { dimensions: 2, even: of("mixed"), odd: grey(0.125), space: uv };
+    assert_eq!(*find("squares").2, squares);
     let Value::Texture(other) = of("other") else { panic!() };
     let mixed = Texture::Mix { a: grey(0.5), b: of("veins"), amount: Value::Texture(other) };
     assert_eq!(*find("mixed").2, mixed);
@@ -187,11 +193,14 @@ fn texture_trees_take_every_key() {
     assert_eq!(*find("sum").2, Texture::Add { a: of("product"), b: grey(0.25) });
     assert_eq!(*find("product").2, Texture::Multiply { a: of("grain"), b: of("fire") });
     let grain = Noise {
+        perlin: Perlin::default(),
+        normalize: true,
+        w: [0.0; 2],
         sum: NoiseSum::Fbm,
         octaves: 1,
         gain: 0.5,
         lacunarity: 2.0,
-        low: grey(0.0),
+        low: of("bent"),
         high: grey(1.0),
         space: object,
     };

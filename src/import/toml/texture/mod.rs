@@ -1,6 +1,8 @@
 //! `[texture.NAME]`.
 
 mod image;
+mod join;
+mod noise;
 mod pattern;
 
 use super::document::Entry;
@@ -9,10 +11,10 @@ use super::reader::Reader;
 use super::text::{self, Limits};
 use super::value;
 use super::view::View;
-use crate::scene::{Gradient, Metric, Noise, NoiseSum, Texture, Value, WorleyFeature};
+use crate::scene::{Texture, Value};
 use crate::{Error, Result};
 use glam::Vec3;
-use pattern::{FEATURES, GRADIENTS, METRICS, MOST_OCTAVES, space, stops};
+use noise::veins;
 
 impl Reader<'_> {
     /// All textures. They may be made of one another in any order, so each has its name before any is read.
@@ -39,55 +41,41 @@ impl Reader<'_> {
     fn texture(&mut self, entry: &Entry) -> Result<Texture> {
         let what = format!("texture `{}`", text::shown(&entry.key));
         let (view, kind) = View::of_kind(self.sources, &entry.node, what, &TEXTURE)?;
-        let color = |key: &str, default: f32| match view.get(key) {
-            Some(item) => self.color(item, Limits::Finite),
-            None => Ok(Value::Constant(Vec3::splat(default))),
-        };
-        let need = |key: &str| self.color(view.need(key)?, Limits::Finite);
         Ok(match kind {
             "constant" => Texture::Constant(value::color(view.need("color")?, Limits::Finite)?),
-            "checker" => {
-                Texture::Checker { even: color("even", 1.0)?, odd: color("odd", 0.0)?, space: space(&view)? }
-            }
-            "noise" | "fbm" | "turbulence" => Texture::Noise(Noise {
-                sum: if kind == "turbulence" { NoiseSum::Turbulence } else { NoiseSum::Fbm },
-                octaves: if kind == "noise" { 1 } else { view.u32_or("octaves", 6, 1, MOST_OCTAVES)? },
-                gain: view.f32_or("gain", 0.5, Limits::From(0.0, 1.0))?,
-                lacunarity: view.f32_or("lacunarity", 2.0, Limits::From(1.0, 16.0))?,
-                low: color("low", 0.0)?,
-                high: color("high", 1.0)?,
-                space: space(&view)?,
-            }),
-            "gradient" => Texture::Gradient {
-                shape: view.choice_or("shape", Gradient::Linear, &GRADIENTS)?,
-                low: color("low", 0.0)?,
-                high: color("high", 1.0)?,
-                space: space(&view)?,
+            "checker" => self.checker(&view)?,
+            "noise" | "fbm" | "turbulence" | "ridged" | "windy" => self.noise(&view, kind)?,
+            "value_noise" => self.value_noise(&view)?,
+            "marble" | "wood" | "granite" => veins(&view, kind)?,
+            "brick" => self.brick(&view)?,
+            "dots" => self.dots(&view)?,
+            "gradient" => self.gradient(&view)?,
+            "worley" => self.worley(&view)?,
+            "ramp" => self.ramp(&view)?,
+            "curve" => self.curve(&view)?,
+            "mix" => self.mix(&view)?,
+            "add" => Texture::Add { a: self.input(&view, "a")?, b: self.input(&view, "b")? },
+            "multiply" => Texture::Multiply { a: self.input(&view, "a")?, b: self.input(&view, "b")? },
+            "scale" => Texture::Scale {
+                value: self.input(&view, "value")?,
+                factor: self.number(view.need("factor")?, Limits::Finite)?,
             },
-            "worley" => Texture::Worley {
-                feature: view.choice_or("feature", WorleyFeature::F1, &FEATURES)?,
-                metric: view.choice_or("metric", Metric::Euclidean, &METRICS)?,
-                low: color("low", 0.0)?,
-                high: color("high", 1.0)?,
-                space: space(&view)?,
-            },
-            "ramp" => Texture::Ramp {
-                value: self.number(view.need("value")?, Limits::Finite)?,
-                stops: stops(view.need("stops")?)?,
-                smooth: view.bool_or("smooth", false)?,
-            },
-            "mix" => Texture::Mix {
-                a: color("a", 0.0)?,
-                b: color("b", 1.0)?,
-                amount: match view.get("amount") {
-                    Some(item) => self.number(item, Limits::From(0.0, 1.0))?,
-                    None => Value::Constant(0.5),
-                },
-            },
-            "add" => Texture::Add { a: need("a")?, b: need("b")? },
-            "multiply" => Texture::Multiply { a: need("a")?, b: need("b")? },
-            "invert" => Texture::Invert { value: need("value")? },
+            "invert" => Texture::Invert { value: self.input(&view, "value")? },
+            "warp" => self.warp(&view)?,
             _ => Texture::Image(self.image_texture(&view)?),
         })
+    }
+
+    /// A colour or texture that must be there.
+    fn input(&self, view: &View<'_>, key: &str) -> Result<Value<Vec3>> {
+        self.color(view.need(key)?, Limits::Finite)
+    }
+
+    /// A colour or texture, or what it is without the key.
+    fn input_or(&self, view: &View<'_>, key: &str, default: Vec3) -> Result<Value<Vec3>> {
+        match view.get(key) {
+            Some(item) => self.color(item, Limits::Finite),
+            None => Ok(Value::Constant(default)),
+        }
     }
 }
