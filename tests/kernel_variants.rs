@@ -3,6 +3,7 @@
 
 mod common;
 
+use common::patterns::{noise, patterns};
 use common::probe::{cache, sources};
 use dapple::layout::{BINDINGS, Backend, Binding, BindingKind, WORKGROUP};
 use dapple::prepare::{self, Prepared, Stage};
@@ -179,12 +180,13 @@ fn trees() -> Scene {
     let mut scene = Scene::default();
     let mut last = scene.textures.add("paper", Texture::Constant(Vec3::ONE));
     let spaces = [Coordinates::Uv, Coordinates::Object, Coordinates::World];
-    for (coordinates, sum) in spaces.into_iter().zip([NoiseSum::Fbm, NoiseSum::Turbulence, NoiseSum::Fbm]) {
-        let space = PatternSpace { coordinates, pattern_from_space: Affine3A::IDENTITY };
-        let (low, high) = (Value::Texture(last), constant(0.5));
-        let noise = Noise { sum, octaves: 2, gain: 0.5, lacunarity: 2.0, low, high, space };
+    let sums = [NoiseSum::Fbm, NoiseSum::Turbulence, NoiseSum::Ridged];
+    for (i, (coordinates, sum)) in spaces.into_iter().zip(sums).enumerate() {
+        let space = PatternSpace { filter_width: i as f32, ..PatternSpace::new(coordinates) };
+        let low = patterns(&mut scene, Value::Texture(last), space, i as u32);
+        let noise = noise(sum, Perlin { classic: false, dimensions: 3 }, low, space);
         let noise = Value::Texture(scene.textures.add("noise", Texture::Noise(noise)));
-        let checker = Texture::Checker { even: noise, odd: constant(0.2), space };
+        let checker = Texture::Checker { dimensions: 3, even: noise, odd: constant(0.2), space };
         let a = Value::Texture(scene.textures.add("checker", checker));
         let inverted = Value::Texture(scene.textures.add("inverted", Texture::Invert { value: a }));
         let product = Value::Texture(scene.textures.add("product", Texture::Multiply { a, b: inverted }));

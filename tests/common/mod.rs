@@ -5,6 +5,7 @@ pub mod chi2;
 pub mod compare;
 pub mod directions;
 pub mod lights;
+pub mod patterns;
 pub mod probe;
 pub mod random;
 pub mod references;
