@@ -35,7 +35,7 @@ impl Reader<'_> {
         })
     }
 
-    pub(super) fn mix(&self, view: &View<'_>) -> Result<Texture> {
+    pub(super) fn mix_texture(&self, view: &View<'_>) -> Result<Texture> {
         Ok(Texture::Mix {
             a: self.input_or(view, "a", Vec3::ZERO)?,
             b: self.input_or(view, "b", Vec3::ONE)?,

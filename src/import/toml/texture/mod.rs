@@ -53,7 +53,7 @@ impl Reader<'_> {
             "worley" => self.worley(&view)?,
             "ramp" => self.ramp(&view)?,
             "curve" => self.curve(&view)?,
-            "mix" => self.mix(&view)?,
+            "mix" => self.mix_texture(&view)?,
             "add" => Texture::Add { a: self.input(&view, "a")?, b: self.input(&view, "b")? },
             "multiply" => Texture::Multiply { a: self.input(&view, "a")?, b: self.input(&view, "b")? },
             "scale" => Texture::Scale {
