@@ -184,7 +184,7 @@ fn trees() -> Scene {
     for (i, (coordinates, sum)) in spaces.into_iter().zip(sums).enumerate() {
         let space = PatternSpace { filter_width: i as f32, ..PatternSpace::new(coordinates) };
         let low = patterns(&mut scene, Value::Texture(last), space, i as u32);
-        let noise = noise(sum, Perlin { classic: false, dimensions: 3 }, low, space);
+        let noise = noise(sum, Perlin::default(), low, space);
         let noise = Value::Texture(scene.textures.add("noise", Texture::Noise(noise)));
         let checker = Texture::Checker { dimensions: 3, even: noise, odd: constant(0.2), space };
         let a = Value::Texture(scene.textures.add("checker", checker));

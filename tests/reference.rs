@@ -10,9 +10,8 @@
 //! | reference | what it needs |
 //! |---|---|
 //! | `c_uv_quadrics` | a partial sphere, uv of a cylinder |
-//! | `d_checker` | 3D checkerboards, planar, cylindrical and spherical mappings |
-//! | `e_noise`, `f_marble_dots` | procedural textures |
-//! | `g_bump`, `m_instances` | fbm as pbrt has it |
+//! | `d_checker` | planar, cylindrical and spherical mappings |
+//! | `g_bump`, `m_instances` | to be built |
 //! | `n_infinite_image` | an equal-area environment |
 //! | `o_lens_dgauss`, `o_lens_wide` | lenses of several elements |
 //! | `p_equirect`, `p_ortho` | other cameras |
@@ -106,6 +105,6 @@ macro_rules! scenes {
 }
 
 scenes! {
-    pbrt: a_cornell b_wrap h_normalmap i_alpha j_thinlens k_softshadow l_materials n_infinite_const r_hardlights;
+    pbrt: a_cornell b_wrap e_noise f_marble_dots h_normalmap i_alpha j_thinlens k_softshadow l_materials n_infinite_const r_hardlights;
     mitsuba: m_area_lights m_bitmap_wrap_filter m_bumpmap m_cornell_saturated m_dielectric m_mask m_thinlens;
 }

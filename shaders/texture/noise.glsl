@@ -8,16 +8,18 @@ uvec2 permuted(uint i) { return fetch_textures(i & 255u).xy; }
 
 float perlin_fade(float t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
-// The product of the offset p and one of twelve directions, from the centre of a cube to its edges.
-float perlin_gradient(uint hash, vec3 p)
+// The product of the offset p and one of twelve directions, from the centre of a cube to its edges. Four of them are there twice:
+// in the noise of pbrt (util/noise.cpp) not quite the same.
+float perlin_gradient(uint hash, vec3 p, bool pbrt)
 {
     uint h = hash & 15u;
-    float u = h < 8u ? p.x : p.y;
-    float v = h < 4u ? p.y : h == 12u || h == 14u ? p.x : p.z;
+    bool twice = h == 12u || h == (pbrt ? 13u : 14u);
+    float u = h < 8u || (pbrt && twice) ? p.x : p.y;
+    float v = h < 4u || (pbrt && twice) ? p.y : twice ? p.x : p.z;
     return ((h & 1u) == 0u ? u : -u) + ((h & 2u) == 0u ? v : -v);
 }
 
-float perlin_noise(vec3 point)
+float gradient_noise(vec3 point, bool pbrt)
 {
     vec3 cell = floor(point);
     vec3 p = point - cell;
@@ -31,9 +33,12 @@ float perlin_noise(vec3 point)
     uvec2 h01 = permuted(y0.y + i.z);
     uvec2 h10 = permuted(y1.x + i.z);
     uvec2 h11 = permuted(y1.y + i.z);
-    float x00 = mix(perlin_gradient(h00.x, p), perlin_gradient(h10.x, p - vec3(1, 0, 0)), w.x);
-    float x10 = mix(perlin_gradient(h01.x, p - vec3(0, 1, 0)), perlin_gradient(h11.x, p - vec3(1, 1, 0)), w.x);
-    float x01 = mix(perlin_gradient(h00.y, p - vec3(0, 0, 1)), perlin_gradient(h10.y, p - vec3(1, 0, 1)), w.x);
-    float x11 = mix(perlin_gradient(h01.y, p - vec3(0, 1, 1)), perlin_gradient(h11.y, p - vec3(1, 1, 1)), w.x);
+    float x00 = mix(perlin_gradient(h00.x, p, pbrt), perlin_gradient(h10.x, p - vec3(1, 0, 0), pbrt), w.x);
+    float x10 = mix(perlin_gradient(h01.x, p - vec3(0, 1, 0), pbrt), perlin_gradient(h11.x, p - vec3(1, 1, 0), pbrt), w.x);
+    float x01 = mix(perlin_gradient(h00.y, p - vec3(0, 0, 1), pbrt), perlin_gradient(h10.y, p - vec3(1, 0, 1), pbrt), w.x);
+    float x11 = mix(perlin_gradient(h01.y, p - vec3(0, 1, 1), pbrt), perlin_gradient(h11.y, p - vec3(1, 1, 1), pbrt), w.x);
     return mix(mix(x00, x10, w.y), mix(x01, x11, w.y), w.z);
 }
+
+float perlin_noise(vec3 point) { return gradient_noise(point, false); }
+float pbrt_noise(vec3 point) { return gradient_noise(point, true); }

@@ -124,6 +124,7 @@ float noise_improved_1(vec4 p) { return perlin_1(p, false); }
 float noise_improved_2(vec4 p) { return perlin_2(p, false); }
 float noise_improved_3(vec4 p) { return perlin_noise(p.xyz); }
 float noise_improved_4(vec4 p) { return perlin_4(p, false); }
+float noise_pbrt_3(vec4 p) { return pbrt_noise(p.xyz); }
 float noise_classic_1(vec4 p) { return perlin_1(p, true); }
 float noise_classic_2(vec4 p) { return perlin_2(p, true); }
 float noise_classic_3(vec4 p) { return perlin_3(p, true); }

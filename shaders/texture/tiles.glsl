@@ -40,9 +40,9 @@ vec4 texture_dots(uint w, vec3 p, vec3 widths, vec4 outside, vec4 inside)
 {
     float radius = node_number_unpack(fetch_textures(w)).number;
     vec2 cell = floor(p.xy + 0.5);
-    bool present = perlin_noise(vec3(cell + 0.5, 0.5)) > 0.0;
+    bool present = pbrt_noise(vec3(cell + 0.5, 0.5)) > 0.0;
     float shift = 0.5 - radius;
-    vec2 center = cell + shift * vec2(perlin_noise(vec3(cell + vec2(1.5, 2.8), 0.5)), perlin_noise(vec3(cell + vec2(4.5, 9.8), 0.5)));
+    vec2 center = cell + shift * vec2(pbrt_noise(vec3(cell + vec2(1.5, 2.8), 0.5)), pbrt_noise(vec3(cell + vec2(4.5, 9.8), 0.5)));
     float distance = length(p.xy - center);
     float width = max(widths.x, widths.y);
     float sharp = width > 0.0 ? clamp(0.5 + (radius - distance) / width, 0.0, 1.0) : float(distance < radius);

@@ -21,8 +21,8 @@ pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Mix, Prin
 pub use store::{Handle, Store};
 pub use texture::{
     Brick, Channel, ColorSpace, Coordinates, Dots, Gradient, Image, ImageTexture, Metric, Noise, NoiseSum,
-    PatternSpace, Perlin, Spread, TexelFilter, Texels, Texture, UvTransform, Value, ValueNoise, VeinKind,
-    Veins, Warp, WorleyFeature, Wrap,
+    PatternSpace, Perlin, PerlinVariant, Spread, TexelFilter, Texels, Texture, UvTransform, Value,
+    ValueNoise, VeinKind, Veins, Warp, WorleyFeature, Wrap,
 };
 
 /// A whole scene. The handles in it index the [`Store`]s of the same scene.

@@ -1,8 +1,8 @@
 //! Patterns of every kind, to be compiled.
 
 use dapple::scene::{
-    Brick, Dots, Metric, Noise, NoiseSum, PatternSpace, Perlin, Scene, Spread, Texture, Value, ValueNoise,
-    VeinKind, Veins, Warp, WorleyFeature,
+    Brick, Dots, Metric, Noise, NoiseSum, PatternSpace, Perlin, PerlinVariant, Scene, Spread, Texture, Value,
+    ValueNoise, VeinKind, Veins, Warp, WorleyFeature,
 };
 use glam::{Vec2, Vec3};
 
@@ -21,7 +21,8 @@ pub fn patterns(scene: &mut Scene, inner: Value<Vec3>, space: PatternSpace, turn
     let mut last = inner;
     let mut wrap = |texture: Texture| Value::Texture(scene.textures.add("pattern", texture));
     for dimensions in 1..=4 {
-        let perlin = Perlin { classic: turn == 1, dimensions };
+        let variant = [PerlinVariant::Improved, PerlinVariant::Classic, PerlinVariant::Pbrt][turn as usize];
+        let perlin = Perlin { variant, dimensions };
         let sum = [NoiseSum::Windy, NoiseSum::Turbulence][(dimensions & 1) as usize];
         last = wrap(Texture::Noise(noise(sum, perlin, last, space)));
     }

@@ -5,7 +5,8 @@ use crate::common::twins::noise::{perlin, value_noise};
 use dapple::layout::{Backend, TexturePoint};
 use dapple::prepare;
 use dapple::scene::{
-    Coordinates, Noise, NoiseSum, PatternSpace, Perlin, Spread, Texture, Value, ValueNoise, VeinKind, Veins,
+    Coordinates, Noise, NoiseSum, PatternSpace, Perlin, PerlinVariant, Spread, Texture, Value, ValueNoise,
+    VeinKind, Veins,
 };
 use glam::{Affine3A, Vec3};
 
@@ -40,13 +41,15 @@ fn close(found: &[f64], expected: &[f64], most: f64, what: &str) {
 
 #[test]
 fn every_noise_is_what_its_corners_say() {
-    for classic in [false, true] {
+    use PerlinVariant::{Classic, Improved, Pbrt};
+    for variant in [Improved, Classic, Pbrt] {
         for dimensions in 1..=4 {
-            if (classic, dimensions) == (false, 3) {
+            // Improved noise in 3 dimensions is tested against its reference
+            if (variant == Pbrt) != (dimensions == 3) && variant != Classic {
                 continue;
             }
             let one = Noise {
-                perlin: Perlin { classic, dimensions },
+                perlin: Perlin { variant, dimensions },
                 w: [0.3, 0.0],
                 ..noise(NoiseSum::Fbm, 1, 0.5, 2.0)
             };
@@ -57,10 +60,10 @@ fn every_noise_is_what_its_corners_say() {
                 .iter()
                 .map(|p| {
                     let all = [p.x, p.y, p.z, 0.3].map(f64::from);
-                    perlin(&table[..256], &all[..dimensions as usize], classic)
+                    perlin(&table[..256], &all[..dimensions as usize], variant)
                 })
                 .collect();
-            let what = format!("classic {classic}, {dimensions} dimensions");
+            let what = format!("{variant:?}, {dimensions} dimensions");
             close(&sums(one.clone(), &at), &expected, 5e-4, &what);
             // Inside −1 to 1, and making use of it
             let most = expected.iter().fold(0.0_f64, |most, n| most.max(n.abs()));
@@ -75,7 +78,7 @@ fn every_noise_is_what_its_corners_say() {
 
 #[test]
 fn w_moves_with_time() {
-    let perlin = Perlin { classic: false, dimensions: 4 };
+    let perlin = Perlin { dimensions: 4, ..Perlin::default() };
     let moving = Noise { perlin, w: [0.25, 0.5], ..noise(NoiseSum::Fbm, 2, 0.5, 2.0) };
     let still = Noise { w: [0.25 + 0.5 * 0.75, 0.0], ..moving.clone() };
     let (scene, handle) = scene_of([Texture::Noise(moving)]);
@@ -135,11 +138,13 @@ fn sums_may_keep_their_size() {
         close(&reds(Texture::Noise(raw), &at), &expected, 1e-5, &format!("{sum:?}"));
     }
     // Wind: |F(p / 10)| · F(p)
-    let raw = |octaves| Noise { normalize: false, ..noise(NoiseSum::Fbm, octaves, 0.5, 1.99) };
+    let perlin = Perlin { variant: PerlinVariant::Pbrt, dimensions: 3 };
+    let raw = |octaves| Noise { perlin, normalize: false, ..noise(NoiseSum::Fbm, octaves, 0.5, 1.99) };
     let tenth: Vec<Vec3> = at.iter().map(|p| *p * 0.1).collect();
     let (strength, height) = (reds(Texture::Noise(raw(3)), &tenth), reds(Texture::Noise(raw(6)), &at));
     let expected: Vec<f64> = strength.iter().zip(&height).map(|(s, h)| s.abs() * h).collect();
-    close(&reds(Texture::Noise(noise(NoiseSum::Windy, 6, 0.5, 1.99)), &at), &expected, 1e-5, "windy");
+    let windy = Noise { perlin, ..noise(NoiseSum::Windy, 6, 0.5, 1.99) };
+    close(&reds(Texture::Noise(windy), &at), &expected, 1e-5, "windy");
 }
 
 #[test]
@@ -242,7 +247,9 @@ fn marble_is_a_wave_that_noise_bends() {
             space: space(Coordinates::Object),
         })
     };
-    let fbm = reds(Texture::Noise(Noise { normalize: false, ..noise(NoiseSum::Fbm, 4, 0.6, 1.99) }), &at);
+    let perlin = Perlin { variant: PerlinVariant::Pbrt, dimensions: 3 };
+    let fbm = Noise { perlin, normalize: false, ..noise(NoiseSum::Fbm, 4, 0.6, 1.99) };
+    let fbm = reds(Texture::Noise(fbm), &at);
     let place = |(p, n): (&Vec3, &f64)| 0.5 + 0.5 * (f64::from(p.y) + 0.4 * n).sin();
     let expected: Vec<f64> = at.iter().zip(&fbm).map(place).collect();
     close(&reds(marble(ramp), &at), &expected, 1e-5, "marble");

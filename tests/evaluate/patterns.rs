@@ -4,7 +4,8 @@ use super::trees::{BLACK, WHITE, noise, points, reds, scene_of, space, values};
 use crate::common::twins::noise::pcg3d;
 use dapple::layout::{Backend, TexturePoint};
 use dapple::scene::{
-    Brick, Coordinates, Dots, Gradient, Metric, Noise, NoiseSum, Texture, Value, Warp, WorleyFeature,
+    Brick, Coordinates, Dots, Gradient, Metric, Noise, NoiseSum, Perlin, PerlinVariant, Texture, Value, Warp,
+    WorleyFeature,
 };
 use glam::{Vec2, Vec3};
 
@@ -115,7 +116,8 @@ fn dots_are_where_noise_says() {
     let cells: Vec<Vec2> = at.iter().map(|p| (Vec2::new(p.x, p.y) + 0.5).floor()).collect();
     let n = |offset: Vec2| {
         let points: Vec<Vec3> = cells.iter().map(|cell| (*cell + offset).extend(0.5)).collect();
-        reds(Texture::Noise(noise(NoiseSum::Fbm, 1, 0.5, 2.0)), &points)
+        let perlin = Perlin { variant: PerlinVariant::Pbrt, dimensions: 3 };
+        reds(Texture::Noise(Noise { perlin, ..noise(NoiseSum::Fbm, 1, 0.5, 2.0) }), &points)
             .into_iter()
             .map(|value| 2.0 * value - 1.0)
             .collect::<Vec<f64>>()

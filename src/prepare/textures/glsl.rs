@@ -2,7 +2,7 @@
 
 use super::shape::{Input, NoiseShape, Place, Shape};
 use crate::layout::{NodeNumber, NoiseSum as NoiseRecord, Pattern, Ramp, Record as _, TextureInput, Wall};
-use crate::scene::{Coordinates, Gradient, Metric, NoiseSum, Perlin, VeinKind, WorleyFeature};
+use crate::scene::{Coordinates, Gradient, Metric, NoiseSum, Perlin, PerlinVariant, VeinKind, WorleyFeature};
 use std::fmt::Write as _;
 
 /// Word of the record of a noise in that of a pattern that has a number.
@@ -107,15 +107,22 @@ impl Shape {
         match self {
             Self::Noise(noise, ..) => Some(noise),
             Self::Veins(VeinKind::Granite, _) => Some(NoiseShape { sum: NoiseSum::Turbulence, ..SUM }),
+            Self::Veins(VeinKind::Marble, _) => Some(PBRT_SUM),
             Self::Veins(..) | Self::WarpNoise(..) => Some(SUM),
             _ => None,
         }
     }
 }
 
-/// The sum that bends marble, wood and the input of a warp.
-const SUM: NoiseShape =
-    NoiseShape { sum: NoiseSum::Fbm, perlin: Perlin { classic: false, dimensions: 3 }, normalized: false };
+/// The sum that bends marble.
+const PBRT_SUM: NoiseShape =
+    NoiseShape { perlin: Perlin { variant: PerlinVariant::Pbrt, ..SUM.perlin }, ..SUM };
+/// The sum that bends wood and the input of a warp.
+const SUM: NoiseShape = NoiseShape {
+    sum: NoiseSum::Fbm,
+    perlin: Perlin { variant: PerlinVariant::Improved, dimensions: 3 },
+    normalized: false,
+};
 
 impl NoiseShape {
     /// From sum to colour, for a sum of amplitudes of 1.
@@ -124,7 +131,11 @@ impl NoiseShape {
     }
 
     fn basis(&self) -> String {
-        let variant = if self.perlin.classic { "classic" } else { "improved" };
+        let variant = match self.perlin.variant {
+            PerlinVariant::Classic => "classic",
+            PerlinVariant::Pbrt if self.perlin.dimensions == 3 => "pbrt",
+            PerlinVariant::Improved | PerlinVariant::Pbrt => "improved",
+        };
         format!("noise_{variant}_{}", self.perlin.dimensions)
     }
 
@@ -202,7 +213,10 @@ fn veins(kind: VeinKind, place: &Place) -> String {
     let (word, point, width) = (Pattern::WORDS, place.point(), place.width());
     let sum = |offset: &str| SUM.call(NOISE_AFTER_NUMBER, &format!("{point}{offset}"), place);
     let number = match kind {
-        VeinKind::Marble => format!("veins_marble(at + {word}u, {point}, {width}, {})", sum("")),
+        VeinKind::Marble => {
+            let sum = PBRT_SUM.call(NOISE_AFTER_NUMBER, &point, place);
+            format!("veins_marble(at + {word}u, {point}, {width}, {sum})")
+        }
         VeinKind::Wood => {
             let (x, y) = (sum(""), sum(" + vec3(31.4, 7.7, 59.3)"));
             format!("veins_wood(at + {word}u, {point}, {width}, vec2({x}, {y}))")

@@ -5,7 +5,7 @@ mod noise;
 mod pattern;
 
 pub use image::{Channel, ColorSpace, Image, ImageTexture, TexelFilter, Texels, UvTransform, Wrap};
-pub use noise::{Noise, NoiseSum, Perlin, Spread, ValueNoise, VeinKind, Veins, Warp};
+pub use noise::{Noise, NoiseSum, Perlin, PerlinVariant, Spread, ValueNoise, VeinKind, Veins, Warp};
 pub use pattern::{Brick, Coordinates, Dots, Gradient, Metric, PatternSpace, WorleyFeature};
 
 use super::{Handle, Store};

@@ -3,18 +3,30 @@
 use super::{PatternSpace, Value};
 use glam::Vec3;
 
+/// Which gradients, and what is between them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum PerlinVariant {
+    /// A few directions, and 6t⁵ − 15t⁴ + 10t³ (Perlin 2002).
+    Improved,
+    /// Random unit gradients, and 3t² − 2t³ (Perlin 1985).
+    Classic,
+    /// As improved, but for two of the 16 directions (pbrt, `util/noise.cpp`). In 3 dimensions only; in others it is improved
+    /// noise.
+    Pbrt,
+}
+
 /// Gradient noise: a function within −1 and 1 that is 0 at the points of the lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Perlin {
-    /// Random unit gradients and 3t² − 2t³ (Perlin 1985), in place of a few directions and 6t⁵ − 15t⁴ + 10t³ (Perlin 2002).
-    pub classic: bool,
+    /// Gradients.
+    pub variant: PerlinVariant,
     /// 1 to 4: of x, of x and y, of x, y and z, or of these and w.
     pub dimensions: u32,
 }
 
 impl Default for Perlin {
     fn default() -> Self {
-        Self { classic: false, dimensions: 3 }
+        Self { variant: PerlinVariant::Improved, dimensions: 3 }
     }
 }
 

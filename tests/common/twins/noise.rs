@@ -1,4 +1,7 @@
-//! Twins of `texture/perlin.glsl`, `texture/value_noise.glsl` and the hash of `texture/worley.glsl`.
+//! Twins of `texture/perlin.glsl`, `texture/value_noise.glsl` and the hash of `texture/worley.glsl`. Improved noise in 3 dimensions
+//! is tested against its reference, that of pbrt here.
+
+use dapple::scene::PerlinVariant;
 
 /// Three numbers of 32 bits from three.
 pub fn pcg3d(v: [u32; 3]) -> [u32; 3] {
@@ -39,12 +42,22 @@ fn gradient(table: &[[u32; 4]], hash: u32, d: &[f64], classic: bool) -> f64 {
             let [p, q, r] = [[y, z, w], [x, z, w], [x, y, w], [x, y, z]][(hash >> 3 & 3) as usize];
             0.6514 * (sign(a) * p + sign(b) * q + sign(c) * r)
         }
-        _ => unreachable!("improved noise in 3 dimensions is tested against its reference"),
+        // pbrt's: 12 is (x, y), 13 is (−x, y), 14 is (y, −z) and 15 is (−y, −z)
+        [x, y, z] => {
+            let (u, v) = match hash & 15 {
+                0..=3 | 12 | 13 => (x, y),
+                4..=7 => (x, z),
+                _ => (y, z),
+            };
+            sign(a) * u + sign(b) * v
+        }
+        _ => unreachable!("noise has 1 to 4 dimensions"),
     }
 }
 
 /// Gradient noise by its definition: the corners of the cell, weighted.
-pub fn perlin(table: &[[u32; 4]], p: &[f64], classic: bool) -> f64 {
+pub fn perlin(table: &[[u32; 4]], p: &[f64], variant: PerlinVariant) -> f64 {
+    let classic = variant == PerlinVariant::Classic;
     let mut sum = 0.0;
     for corner in 0..1_u32 << p.len() {
         let (mut hash, mut weight, mut d) = (0_u32, 1.0, Vec::new());

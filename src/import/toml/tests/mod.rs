@@ -171,7 +171,7 @@ fn texture_trees_take_every_key() {
         filter_width: 0.5,
     };
     let veins = Noise {
-        perlin: Perlin { classic: true, dimensions: 4 },
+        perlin: Perlin { variant: PerlinVariant::Classic, dimensions: 4 },
         normalize: false,
         w: [0.5, 2.0],
         sum: NoiseSum::Turbulence,

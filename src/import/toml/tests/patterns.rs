@@ -102,6 +102,8 @@ fn patterns_have_defaults() {
 fn keys_that_do_not_go_together_are_refused() {
     let w = refused("kind = \"noise\"\nw = 1");
     assert!(w.contains("3:5") && w.contains("`w` is for noise in 4 dimensions"), "{w}");
+    let pbrt = refused("kind = \"fbm\"\nvariant = \"pbrt\"\ndimensions = 2");
+    assert!(pbrt.contains("4:14") && pbrt.contains("must be 3"), "{pbrt}");
     let by = refused("kind = \"warp\"\nvalue = 1\nby = 1\ngain = 0.5");
     assert!(by.contains("5:8") && by.contains("`gain` is of the noise that `by` replaces"), "{by}");
     let edge = refused("kind = \"worley\"\nfeature = \"edge\"\nmetric = \"manhattan\"");

@@ -6,7 +6,7 @@ use crate::Result;
 use crate::import::toml::reader::Reader;
 use crate::import::toml::text::Limits;
 use crate::import::toml::view::View;
-use crate::scene::{Noise, NoiseSum, Perlin, Spread, Texture, ValueNoise, VeinKind, Veins};
+use crate::scene::{Noise, NoiseSum, Perlin, PerlinVariant, Spread, Texture, ValueNoise, VeinKind, Veins};
 use glam::Vec3;
 
 /// Most octaves of noise: the last has 2⁻³¹ of the size of the first.
@@ -14,8 +14,14 @@ const MOST_OCTAVES: u32 = 32;
 /// Most points of the lattice of value noise along an axis.
 const LONGEST_LATTICE: u32 = 1 << 20;
 
+const VARIANTS: [(&str, PerlinVariant); 3] = [
+    ("improved", PerlinVariant::Improved),
+    ("classic", PerlinVariant::Classic),
+    ("pbrt", PerlinVariant::Pbrt),
+];
 /// The lacunarity of pbrt's noise: octaves of 2 would have their zeros in one place.
 const PBRT_LACUNARITY: f32 = 1.99;
+const PBRT: Perlin = Perlin { variant: PerlinVariant::Pbrt, dimensions: 3 };
 /// Colours of pbrt's marble (`MarbleTexture`), with the factor that it applies.
 const MARBLE: [[f32; 3]; 9] = [
     [0.87, 0.87, 0.9],
@@ -49,7 +55,7 @@ impl Reader<'_> {
         };
         let [gain, lacunarity] = fractal(view)?;
         Ok(Texture::Noise(Noise {
-            perlin: perlin(view)?,
+            perlin: if kind == "windy" { PBRT } else { perlin(view)? },
             sum,
             octaves: if kind == "noise" { 1 } else { octaves(view, 6)? },
             gain,
@@ -96,8 +102,13 @@ fn perlin(view: &View<'_>) -> Result<Perlin> {
             .error(format!("{} is for noise in 4 dimensions", item.name()))
             .help("add `dimensions = 4`"));
     }
-    let classic = view.choice_or("variant", false, &[("improved", false), ("classic", true)])?;
-    Ok(Perlin { classic, dimensions })
+    let variant = view.choice_or("variant", PerlinVariant::Improved, &VARIANTS)?;
+    if let (PerlinVariant::Pbrt, Some(item)) = (variant, view.get("dimensions"))
+        && dimensions != 3
+    {
+        return Err(item.refuse(dimensions, "must be 3 for the variant \"pbrt\""));
+    }
+    Ok(Perlin { variant, dimensions })
 }
 
 /// Marble, wood and granite.
