@@ -4,6 +4,7 @@ mod details;
 mod files;
 mod materials;
 mod objects;
+mod textures;
 
 use dapple::import::{Assets, read_scene_with};
 use dapple::scene::{Image, Mesh, MeshPart, Texels};

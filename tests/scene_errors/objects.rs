@@ -1,62 +1,6 @@
-//! Textures, shapes, meshes and lights.
+//! Shapes, meshes and lights.
 
 use super::{check, check_with_material};
-
-#[test]
-fn textures() {
-    check(&[
-        (
-            "[texture.t]\nfile = 'a.png'",
-            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"gradient\", \"worley\", \"ramp\", \"mix\", \"add\", \"multiply\", \"invert\"",
-        ),
-        (
-            "[texture.t]\nkind = 'imag'",
-            "2:8: `kind` is \"imag\", must be one of \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"gradient\", \"worley\", \"ramp\", \"mix\", \"add\", \"multiply\", \"invert\"; did you mean \"image\"?",
-        ),
-        (
-            "[texture.t]\nkind = 'invert'\nvalue = { texture = 'u' }\n[texture.u]\nkind = 'invert'\nvalue = { texture = 't' }",
-            "1:10: texture `t` is made of itself, or of more than 64 textures one in the other",
-        ),
-        (
-            "[texture.t]\nkind = 'ramp'\nvalue = 0\nstops = [[1, 0], [0, 1]]",
-            "4:19: `stops[1][0]` is less than the place before it",
-        ),
-        (
-            "[texture.t]\nkind = 'ramp'\nvalue = 0\nstops = []",
-            "4:9: `stops` must be from 1 to 64 stops, found an empty list",
-        ),
-        (
-            "[texture.t]\nkind = 'ramp'\nvalue = 0\nstops = [[1]]",
-            "4:10: `stops[0]` must be a place and a colour, found a list of 1",
-        ),
-        ("[texture.t]\nkind = 'add'\na = 1", "1:1: `b` is missing in add texture `t`"),
-        ("[texture.t]\nkind = 'fbm'\noctaves = 33", "3:11: `octaves` is 33, must be from 1 to 32"),
-        (
-            "[texture.t]\nkind = 'noise'\noctaves = 3",
-            "3:1: unknown key `octaves` in noise texture `t`; it is a key of fbm, turbulence",
-        ),
-        ("[texture.t]\nkind = 'image'", "1:1: `file` is missing in image texture `t`"),
-        ("[texture.t]\nkind = 'image'\nfile = 'missing.png'", "3:8: there is no file missing.png"),
-        ("[texture.t]\nkind = 'image'\nfile = ''", "3:8: `file` is \"\", must be the name of a file"),
-        ("[texture.t]\nkind = 'image'\nfile = 'broken.exr'", "broken.exr:7: the picture ends too early"),
-        (
-            "[texture.t]\nkind = 'image'\nfile = 'a.png'\nwrap = ['clamp']",
-            "4:8: `wrap` must be one word or two, found a list of 1",
-        ),
-        (
-            "[texture.t]\nkind = 'image'\nfile = 'a.png'\nwrap = ['clamp', 'repat']",
-            "4:18: `wrap[1]` is \"repat\", must be one of \"repeat\", \"clamp\", \"mirror\", \"black\"; did you mean \"repeat\"?",
-        ),
-        (
-            "[texture.t]\nkind = 'image'\nfile = 'a.png'\nuv_scale = [1, 0]",
-            "4:16: `uv_scale[1]` is 0, must be different from 0",
-        ),
-        (
-            "[texture.t]\nkind = 'image'\nfile = 'a.png'\ngamma = 2",
-            "4:1: unknown key `gamma` in image texture `t`; its keys are `kind`, `file`, `filter`, `wrap`, `uv_scale`, `uv_rotate`, `uv_offset`, `color_space`, `channel`, `scale`, `invert`",
-        ),
-    ]);
-}
 
 #[test]
 fn shapes_and_transforms() {

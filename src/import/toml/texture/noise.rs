@@ -106,7 +106,7 @@ fn perlin(view: &View<'_>) -> Result<Perlin> {
     if let (PerlinVariant::Pbrt, Some(item)) = (variant, view.get("dimensions"))
         && dimensions != 3
     {
-        return Err(item.refuse(dimensions, "must be 3 for the variant \"pbrt\""));
+        return Err(item.refuse(dimensions, "3 for the variant \"pbrt\""));
     }
     Ok(Perlin { variant, dimensions })
 }
