@@ -246,6 +246,7 @@ fn procedures_have_slopes_too() {
     for rule in RULES {
         let mut s = facing();
         let space = PatternSpace {
+            filter_width: 0.0,
             coordinates: Coordinates::Object,
             pattern_from_space: Affine3A::from_translation(Vec3::splat(0.5))
                 * Affine3A::from_scale(Vec3::splat(0.25)),
