@@ -24,7 +24,9 @@ fn everything() -> Scene {
     let mut s = scene(37, 21, 8);
     s.camera = look(Vec3::new(0.0, 1.5, 5.0), Vec3::new(0.0, 0.5, 0.0), 50.0);
     let aperture = Aperture::Radius(0.05);
-    s.camera.lens = Some(Lens { aperture, focus_distance: 5.0, blades: 5, blade_rotation: 10.0 });
+    let mut lens = Lens::new(aperture, 5.0);
+    (lens.opening.blades, lens.opening.blade_rotation) = (5, 10.0);
+    s.camera.projection = Projection::thin_lens(50.0, lens);
     let mut random = Random(3);
     let texels = (0..15 * 7).map(|_| [0; 4].map(|_: u8| (random.uniform() * 256.0) as u8)).collect();
     let image = Image { width: 15, height: 7, texels: Texels::Rgba8(texels) };

@@ -108,7 +108,9 @@ fn shapes() -> Scene {
         Light::Distant { direction, irradiance: Vec3::ONE },
     ]);
     let aperture = Aperture::Radius(0.1);
-    scene.camera.lens = Some(Lens { aperture, focus_distance: 2.0, blades: 6, blade_rotation: 0.0 });
+    let mut lens = Lens::new(aperture, 2.0);
+    lens.opening.blades = 6;
+    scene.camera.projection = Projection::thin_lens(40.0, lens);
     scene.render.sampler = Sampler::Stratified;
     scene.render.geometric_veto = true;
     scene.film.filter.kind = FilterKind::Gaussian;

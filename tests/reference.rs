@@ -13,8 +13,6 @@
 //! | `d_checker` | planar, cylindrical and spherical mappings |
 //! | `g_bump`, `m_instances` | to be built |
 //! | `n_infinite_image` | an equal-area environment |
-//! | `o_lens_dgauss`, `o_lens_wide` | lenses of several elements |
-//! | `p_equirect`, `p_ortho` | other cameras |
 //! | `q_meshes` | loop subdivision, bilinear patches |
 //! | `m_principled` | the principled BSDF |
 //! | `m_volume_texture` | 3D images |
@@ -105,6 +103,7 @@ macro_rules! scenes {
 }
 
 scenes! {
-    pbrt: a_cornell b_wrap e_noise f_marble_dots h_normalmap i_alpha j_thinlens k_softshadow l_materials n_infinite_const r_hardlights;
+    pbrt: a_cornell b_wrap e_noise f_marble_dots h_normalmap i_alpha j_thinlens k_softshadow l_materials n_infinite_const
+        o_lens_dgauss o_lens_wide p_equirect p_ortho r_hardlights;
     mitsuba: m_area_lights m_bitmap_wrap_filter m_bumpmap m_cornell_saturated m_dielectric m_mask m_thinlens;
 }

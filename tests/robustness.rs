@@ -165,7 +165,7 @@ fn floor_under_lights() -> Scene {
 fn a_sphere_light_seen_from_inside() {
     // A small white ball in a large lamp that shines inward
     let mut s = scene(8, 8, 256);
-    s.camera.fov = 10.0;
+    s.camera.projection = Projection::pinhole(10.0);
     let lamp = s.emitter(grey(2.0), true);
     s.sphere(Vec3::new(0.3, 0.2, 0.1), 5.0, lamp);
     let white = s.diffuse(0.5);
@@ -295,7 +295,7 @@ fn materials_at_the_ends_of_their_ranges() {
     for (i, surface) in surfaces.into_iter().enumerate() {
         let mut s = scene(8, 8, 1024);
         s.environment = constant_environment(1.0);
-        s.camera.fov = 30.0;
+        s.camera.projection = Projection::pinhole(30.0);
         let text = format!("{surface:?}");
         let m = s.material(surface, None);
         s.sphere(Vec3::Z * -4.0, 0.9, m);

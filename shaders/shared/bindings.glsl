@@ -24,4 +24,5 @@ layout(std430, set = 0, binding = 18) buffer Uints_film { uint film[]; };
 layout(std430, set = 0, binding = 19) buffer Uints_parked { uint parked[]; };
 READ_WORDS(20, 52, Words_points, words_points, texels_points, fetch_points)
 READ_WRITE_WORDS(21, 53, Words_values, words_values, texels_values, fetch_values, store_values)
+READ_WORDS(22, 54, Words_lens, words_lens, texels_lens, fetch_lens)
 READ_WORDS(23, 55, Words_details, words_details, texels_details, fetch_details)

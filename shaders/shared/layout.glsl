@@ -84,6 +84,7 @@ const uint FRESNEL_INDEX = 0u; // Conductor rule: conductor with eta and k.
 const uint FRESNEL_EXACT = 1u; // Conductor rule: conductor with eta 1 and the k of its reflectance.
 const uint FRESNEL_SCHLICK = 2u; // Conductor rule: Schlick's approximation.
 const uint FRESNEL_NONE = 3u; // Conductor rule: the same at every angle.
+const uint PUPIL_INTERVALS = 64u; // Intervals of the distance from the middle of the film that have bounds of the exit pupil of their own.
 const uint LIGHT_POINT = 0u; // Light kind: point light.
 const uint LIGHT_SPOT = 1u; // Light kind: spot light.
 const uint LIGHT_DISTANT = 2u; // Light kind: parallel light.
@@ -112,13 +113,29 @@ const uint CHANNEL_A = 4u; // Channel: alpha in all.
 
 struct Frame {
     vec3 camera_right; // camera space x in world space
-    float tan_x; // tangent of half the horizontal field of view
+    float half_x; // half of the width of the picture: tangent, scene units of parallel rays, radii of a fisheye circle, or mm of film
     vec3 camera_up; // camera space y in world space
-    float tan_y; // tangent of half the vertical field of view
+    float half_y; // half of the height of the picture, in the same unit
     vec3 camera_back; // camera space z in world space: the camera looks along its negative
     float lens_radius; // radius of the lens, scene units; 0 = pinhole
     vec3 camera_position; // position of the camera
     float focus_distance; // distance of the plane of focus, scene units
+    vec3 focus_plane; // plane of focus n · p = d of a thin lens, as n / d; n and p to the right, up and along the view
+    float cat_eye; // distance of the second opening of a thin lens, radii
+    vec2 opening_half; // half of the width and height of the opening, radii
+    uvec2 opening_size; // columns and rows of the picture of the opening
+    uint opening_cells; // first word of `lens` with its cells
+    uint lens_count; // interfaces of the lens
+    uint lens_stop; // the one that is the stop
+    float stop_radius; // radius of the stop, millimetres
+    float lens_rear; // from the film to the last vertex, millimetres
+    float lens_weight; // factor on cos⁴ θ · area, which gives the weight of a ray; one over square millimetres
+    float lens_unit; // scene units in a millimetre
+    float lens_spread; // angle of a millimetre of film, radians
+    uint pupil_bounds; // first word of `lens` with bounds of the exit pupil
+    float pupil_scale; // intervals of these in a millimetre of film
+    float fisheye_scale; // half the angle of a fisheye in radians; equisolid: the sine of half of that
+    float camera_spare; // room
     uint blades; // corners of the aperture; 0 = circle
     float blade_rotation; // rotation of the aperture, radians
     float filter_radius; // half-width of the pixel filter, pixels
@@ -607,5 +624,127 @@ RampStop ramp_stop_unpack(uvec4 w0)
     RampStop r;
     r.color = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
     r.place = uintBitsToFloat(w0.w);
+    return r;
+}
+
+struct TextureInput {
+    vec3 value; // the constant
+    uint at; // word of the record of the texture
+};
+const uint TEXTURE_INPUT_WORDS = 1u;
+TextureInput texture_input_unpack(uvec4 w0)
+{
+    TextureInput r;
+    r.value = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.at = w0.w;
+    return r;
+}
+
+struct Light {
+    uint kind; // LIGHT_… kind
+    float chance; // chance of choosing it
+    float accept; // share of its slot of the alias table that is its own
+    uint alias; // the light that has the rest of the slot
+    vec3 position; // position, centre, corner or first vertex
+    float a; // radius (0: ellipsoid); -1 when a flat light faces against u × v; cosine of a spot's inner cone
+    vec3 edge_u; // first edge, axis, or second vertex less the first
+    float b; // cosine of the outer cone of a spot; area of a surface
+    vec3 edge_v; // second edge, or third vertex less the first
+    uint two_sided; // 1 when it shines on both sides
+    vec3 radiance; // radiance, intensity or irradiance
+    uint texture; // texture of the radiance, or NONE
+    vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a sphere
+    vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
+    vec2 uv2; // uv of the third vertex less the first
+    vec2 spare; // room
+};
+const uint LIGHT_WORDS = 7u;
+Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
+{
+    Light r;
+    r.kind = w0.x;
+    r.chance = uintBitsToFloat(w0.y);
+    r.accept = uintBitsToFloat(w0.z);
+    r.alias = w0.w;
+    r.position = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.a = uintBitsToFloat(w1.w);
+    r.edge_u = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
+    r.b = uintBitsToFloat(w2.w);
+    r.edge_v = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
+    r.two_sided = w3.w;
+    r.radiance = uintBitsToFloat(uvec3(w4.x, w4.y, w4.z));
+    r.texture = w4.w;
+    r.uv0 = uintBitsToFloat(uvec2(w5.x, w5.y));
+    r.uv1 = uintBitsToFloat(uvec2(w5.z, w5.w));
+    r.uv2 = uintBitsToFloat(uvec2(w6.x, w6.y));
+    r.spare = uintBitsToFloat(uvec2(w6.z, w6.w));
+    return r;
+}
+
+struct EnvironmentCell {
+    float accept; // share of the slot that is its own
+    uint alias; // the cell that has the rest
+    float chance; // chance of the cell
+    uint spare; // room
+};
+const uint ENVIRONMENT_CELL_WORDS = 1u;
+EnvironmentCell environment_cell_unpack(uvec4 w0)
+{
+    EnvironmentCell r;
+    r.accept = uintBitsToFloat(w0.x);
+    r.alias = w0.y;
+    r.chance = uintBitsToFloat(w0.z);
+    r.spare = w0.w;
+    return r;
+}
+
+struct LensInterface {
+    float position; // z of its vertex
+    float curvature; // 1 / radius, positive when the centre is on the side of the scene; 0 = flat
+    float aperture_squared; // square of the radius of what is let through
+    float index; // index of the medium towards the scene, at the d line
+    vec2 cauchy; // A and B of that index at other wavelengths: A + B / λ², λ in micrometres
+    vec2 spare; // room
+};
+const uint LENS_INTERFACE_WORDS = 2u;
+LensInterface lens_interface_unpack(uvec4 w0, uvec4 w1)
+{
+    LensInterface r;
+    r.position = uintBitsToFloat(w0.x);
+    r.curvature = uintBitsToFloat(w0.y);
+    r.aperture_squared = uintBitsToFloat(w0.z);
+    r.index = uintBitsToFloat(w0.w);
+    r.cauchy = uintBitsToFloat(uvec2(w1.x, w1.y));
+    r.spare = uintBitsToFloat(uvec2(w1.z, w1.w));
+    return r;
+}
+
+struct PupilBounds {
+    vec2 low; // least x and y
+    vec2 high; // greatest x and y
+};
+const uint PUPIL_BOUNDS_WORDS = 1u;
+PupilBounds pupil_bounds_unpack(uvec4 w0)
+{
+    PupilBounds r;
+    r.low = uintBitsToFloat(uvec2(w0.x, w0.y));
+    r.high = uintBitsToFloat(uvec2(w0.z, w0.w));
+    return r;
+}
+
+struct OpeningCell {
+    float accept; // share of the slot that is its own
+    uint alias; // the cell that has the rest
+    float weight; // what passes there, with a mean of π / 4
+    uint spare; // room
+};
+const uint OPENING_CELL_WORDS = 1u;
+OpeningCell opening_cell_unpack(uvec4 w0)
+{
+    OpeningCell r;
+    r.accept = uintBitsToFloat(w0.x);
+    r.alias = w0.y;
+    r.weight = uintBitsToFloat(w0.z);
+    r.spare = w0.w;
     return r;
 }

@@ -1,7 +1,7 @@
 // The first rays: one a slot of the wave.
 #include "stages/wave.glsl"
 #include "base/sampling.glsl"
-#include "camera/thin_lens.glsl"
+#include "camera/camera.glsl"
 
 // Where on the film a sample lies, in pixels: the filter is sampled in proportion to its value.
 vec2 film_position(SlotPlace place, SampleKey key)
@@ -33,11 +33,13 @@ void main()
     }
     SlotPlace place = slot_place(slot);
     SampleKey key = sample_key(place.pixel, place.sample_index, frame.seed, frame.strata);
-    CameraRay ray = thin_lens_sample(film_position(place, key) / vec2(frame.film_size), sample_2d(key, DIMENSION_LENS));
-    ray_store(slot, WaveRay(ray.origin, 0.0, ray.direction, 2.0 * frame.tan_y / float(frame.film_size.y)));
-    Path path = Path(vec3(1.0), 0.0, vec3(0.0), 0u, 0u, 0u, frame.camera_medium, 1.0, key);
+    CameraRay ray = camera_sample(film_position(place, key) / vec2(frame.film_size), key);
+    ray_store(slot, WaveRay(ray.origin, 0.0, ray.direction, 0.0));
+    Path path = Path(ray.weight, 0.0, vec3(0.0), 0u, 0u, 0u, frame.camera_medium, 1.0, key);
     path_store(slot, path);
     path_store_medium(slot, path);
-    // Tiles at the edge reach beyond the window: those slots are not queued, and the film leaves them out.
-    queue[queue_place(QUEUE_PATHS, 0u, 0u, slot)] = place.inside ? slot : NONE;
+    // Tiles at the edge reach beyond the window: those slots are not queued, and the film leaves them out. What the camera lets
+    // through nothing of is not queued either: it stays black, and counts.
+    bool lit = ray.weight.x + ray.weight.y + ray.weight.z > 0.0;
+    queue[queue_place(QUEUE_PATHS, 0u, 0u, slot)] = place.inside && lit ? slot : NONE;
 }

@@ -33,6 +33,48 @@ pub enum Command {
     Check(CheckArgs),
     /// Measure the speed of this machine on built-in scenes, or on one of yours
     Bench(BenchArgs),
+    /// Print what a lens file is: focal length, f-number, principal planes and pupils; needs no device
+    Lens(LensArgs),
+}
+
+/// `dapple lens`.
+#[derive(Debug, ClapArgs)]
+pub struct LensArgs {
+    /// The lens file
+    pub file: PathBuf,
+    /// Focus on a plane so far in front of the film, in millimetres; default: on infinity
+    #[arg(long, value_name = "MM", value_parser = parse::positive)]
+    pub focus: Option<f64>,
+    /// Stop down to an f-number; default: wide open
+    #[arg(long, value_name = "N", value_parser = parse::positive)]
+    pub f_number: Option<f64>,
+    /// What the distances in the file are; default: what the end of the column shows that is 0
+    #[arg(long, value_enum)]
+    pub spacing: Option<Spacing>,
+    /// Draw the lens, cut along its axis, with rays
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What the distances in a lens file are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Spacing {
+    /// To the next row
+    Next,
+    /// From the row before
+    Previous,
+}
+
+impl From<Spacing> for dapple::import::Spacing {
+    fn from(spacing: Spacing) -> Self {
+        match spacing {
+            Spacing::Next => Self::Next,
+            Spacing::Previous => Self::Previous,
+        }
+    }
 }
 
 /// `dapple bench`.

@@ -10,6 +10,7 @@ mod console;
 mod devices;
 mod event;
 mod job;
+mod lens;
 mod parse;
 mod pixel;
 mod render;
@@ -48,6 +49,7 @@ pub fn run() -> ExitCode {
         }
         Some(Command::Check(args)) => with(Console::new(args.json, false), |c| Ok(check::run(&args, c)?)),
         Some(Command::Bench(args)) => with(Console::new(args.json, false), |c| Ok(bench::run(&args, c)?)),
+        Some(Command::Lens(args)) => with(Console::new(args.json, false), |c| Ok(lens::run(&args, c)?)),
         None => {
             console::say(&Args::command().render_help().to_string());
             return ExitCode::from(USAGE);

@@ -3,6 +3,7 @@
 mod exr;
 mod file;
 mod image;
+mod lens;
 mod mesh;
 mod obj;
 mod ply;
@@ -11,15 +12,16 @@ mod toml;
 
 pub use self::toml::{Assets, Warning, read_scene_with};
 pub use image::read_image;
+pub use lens::{Spacing, read_lens};
 pub use mesh::read_mesh;
 pub use obj::read_obj;
 pub use ply::read_ply;
 
 use crate::Result;
-use crate::scene::{Image, Mesh, Scene};
+use crate::scene::{Image, LensSystem, Mesh, Scene};
 use std::path::Path;
 
-/// Reads images and meshes from the file system.
+/// Reads images, meshes and lenses from the file system.
 struct Files;
 
 impl Assets for Files {
@@ -29,6 +31,10 @@ impl Assets for Files {
 
     fn mesh(&mut self, path: &Path) -> Result<Mesh> {
         read_mesh(path)
+    }
+
+    fn lens(&mut self, path: &Path, spacing: Spacing) -> Result<LensSystem> {
+        read_lens(path, spacing)
     }
 }
 

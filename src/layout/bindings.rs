@@ -71,6 +71,7 @@ pub const BINDINGS: &[Binding] = &[
     row(19, "parked", BindingKind::Uints),
     row(20, "points", BindingKind::Read),
     row(21, "values", BindingKind::ReadWrite),
+    row(22, "lens", BindingKind::Read),
     row(23, "details", BindingKind::Read),
 ];
 

@@ -179,6 +179,8 @@ constants! {
     FRESNEL_SCHLICK = 2;
     /// Conductor rule: the same at every angle.
     FRESNEL_NONE = 3;
+    /// Intervals of the distance from the middle of the film that have bounds of the exit pupil of their own.
+    PUPIL_INTERVALS = 64;
     /// Light kind: point light.
     LIGHT_POINT = 0;
     /// Light kind: spot light.

@@ -7,12 +7,12 @@ records! {
     struct Frame {
         /// camera space x in world space
         camera_right: [f32; 3],
-        /// tangent of half the horizontal field of view
-        tan_x: f32,
+        /// half of the width of the picture: tangent, scene units of parallel rays, radii of a fisheye circle, or mm of film
+        half_x: f32,
         /// camera space y in world space
         camera_up: [f32; 3],
-        /// tangent of half the vertical field of view
-        tan_y: f32,
+        /// half of the height of the picture, in the same unit
+        half_y: f32,
         /// camera space z in world space: the camera looks along its negative
         camera_back: [f32; 3],
         /// radius of the lens, scene units; 0 = pinhole
@@ -21,6 +21,38 @@ records! {
         camera_position: [f32; 3],
         /// distance of the plane of focus, scene units
         focus_distance: f32,
+        /// plane of focus n · p = d of a thin lens, as n / d; n and p to the right, up and along the view
+        focus_plane: [f32; 3],
+        /// distance of the second opening of a thin lens, radii
+        cat_eye: f32,
+        /// half of the width and height of the opening, radii
+        opening_half: [f32; 2],
+        /// columns and rows of the picture of the opening
+        opening_size: [u32; 2],
+        /// first word of `lens` with its cells
+        opening_cells: u32,
+        /// interfaces of the lens
+        lens_count: u32,
+        /// the one that is the stop
+        lens_stop: u32,
+        /// radius of the stop, millimetres
+        stop_radius: f32,
+        /// from the film to the last vertex, millimetres
+        lens_rear: f32,
+        /// factor on cos⁴ θ · area, which gives the weight of a ray; one over square millimetres
+        lens_weight: f32,
+        /// scene units in a millimetre
+        lens_unit: f32,
+        /// angle of a millimetre of film, radians
+        lens_spread: f32,
+        /// first word of `lens` with bounds of the exit pupil
+        pupil_bounds: u32,
+        /// intervals of these in a millimetre of film
+        pupil_scale: f32,
+        /// half the angle of a fisheye in radians; equisolid: the sine of half of that
+        fisheye_scale: f32,
+        /// room
+        camera_spare: f32,
         /// corners of the aperture; 0 = circle
         blades: u32,
         /// rotation of the aperture, radians
@@ -359,6 +391,43 @@ records! {
         alias: u32,
         /// chance of the cell
         chance: f32,
+        /// room
+        spare: u32,
+    }
+
+    /// An interface of a lens, from the film to the scene. Lengths are in millimetres, z is the distance from the film.
+    struct LensInterface {
+        /// z of its vertex
+        position: f32,
+        /// 1 / radius, positive when the centre is on the side of the scene; 0 = flat
+        curvature: f32,
+        /// square of the radius of what is let through
+        aperture_squared: f32,
+        /// index of the medium towards the scene, at the d line
+        index: f32,
+        /// A and B of that index at other wavelengths: A + B / λ², λ in micrometres
+        cauchy: [f32; 2],
+        /// room
+        spare: [f32; 2],
+    }
+
+    /// Where on the plane of the last vertex light comes through to film points on the x axis, in an interval of their distance
+    /// from the middle. Millimetres; empty when no light does.
+    struct PupilBounds {
+        /// least x and y
+        low: [f32; 2],
+        /// greatest x and y
+        high: [f32; 2],
+    }
+
+    /// A cell of the picture of an opening (alias method).
+    struct OpeningCell {
+        /// share of the slot that is its own
+        accept: f32,
+        /// the cell that has the rest
+        alias: u32,
+        /// what passes there, with a mean of π / 4
+        weight: f32,
         /// room
         spare: u32,
     }

@@ -9,6 +9,7 @@ pub mod bvh;
 mod details;
 mod environment;
 mod geometry;
+pub mod lens;
 mod lights;
 mod materials;
 mod medium;
@@ -66,6 +67,8 @@ pub struct Prepared {
     pub root: u32,
     /// Entries of the traversal stack that no ray exceeds.
     pub stack_entries: u32,
+    /// What the camera reads of its lens.
+    pub lens: lens::LensTables,
     /// GLSL of the texture trees: the virtual file `generated/textures.glsl`.
     pub texture_glsl: String,
     /// Material of the glass around the camera, or NONE.
@@ -98,6 +101,7 @@ impl Prepared {
             size_of_val(self.texels.as_slice()),
             size_of_val(self.lights.as_slice()),
             size_of_val(self.environment.as_slice()),
+            size_of_val(self.lens.words.as_slice()),
         ];
         sizes.iter().map(|&bytes| bytes as u64).sum()
     }
@@ -157,8 +161,6 @@ pub struct Features {
     pub medium: bool,
     /// A texture that depends on the width of a pixel.
     pub footprint: bool,
-    /// A lens that is no pinhole.
-    pub lens: bool,
 }
 
 /// Prepares a scene.
@@ -183,7 +185,7 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
     if out.features.medium {
         out.camera_medium = medium::around_camera(scene);
     }
-    out.features.lens = scene.camera.lens.is_some();
+    lens::prepare(scene, &mut out)?;
     units::choose(scene, &textures, &receivers, lamps, &mut out);
     Ok(out)
 }

@@ -6,7 +6,7 @@ use crate::layout::{
     LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG,
     MATERIAL_PRINCIPLED, STACK_ENTRIES,
 };
-use crate::scene::{FilterKind, Sampler, Scene};
+use crate::scene::{FilterKind, FisheyeMapping, Focus, Opening, Projection, Sampler, Scene};
 use std::collections::BTreeMap;
 
 /// The kernels.
@@ -107,6 +107,52 @@ const FILTERS: [(&str, FilterKind); 4] = [
     ("FILTER_BLACKMAN_HARRIS", FilterKind::BlackmanHarris),
 ];
 
+const CAMERAS: [&str; 5] =
+    ["CAMERA_PERSPECTIVE", "CAMERA_ORTHOGRAPHIC", "CAMERA_EQUIRECTANGULAR", "CAMERA_FISHEYE", "CAMERA_LENS"];
+
+const OPENINGS: [&str; 3] = ["OPENING_ROUND", "OPENING_POLYGON", "OPENING_PICTURE"];
+
+/// The switches of the camera.
+fn camera(scene: &Scene, set: &mut impl FnMut(&str, String)) {
+    for (i, name) in CAMERAS.iter().enumerate() {
+        set(name, i.to_string());
+    }
+    for (i, name) in OPENINGS.iter().enumerate() {
+        set(name, i.to_string());
+    }
+    let camera = match scene.camera.projection {
+        Projection::Perspective(_) => 0,
+        Projection::Orthographic { .. } => 1,
+        Projection::Equirectangular => 2,
+        Projection::Fisheye { .. } => 3,
+        Projection::Lens(_) => 4,
+    };
+    set("CAMERA", camera.to_string());
+    let opening = match scene.camera.opening() {
+        Some(Opening { image: Some(_), .. }) => 2,
+        Some(Opening { blades, .. }) if blades > 0 => 1,
+        _ => 0,
+    };
+    set("OPENING", opening.to_string());
+    let mut flag = |name: &str, on: bool| {
+        if on {
+            set(name, "1".to_owned());
+        }
+    };
+    let thin = scene.camera.thin_lens();
+    flag("HAS_LENS", thin.is_some());
+    flag("FOCUS_PLANE", thin.is_some_and(|lens| matches!(lens.focus, Focus::Plane { .. })));
+    flag("CAT_EYE", thin.is_some_and(|lens| lens.cat_eye > 0.0));
+    let equisolid = FisheyeMapping::Equisolid;
+    flag(
+        "FISHEYE_EQUISOLID",
+        matches!(scene.camera.projection, Projection::Fisheye { mapping, .. } if mapping == equisolid),
+    );
+    let system = scene.camera.lens_system();
+    flag("LENS_DISPERSION", system.is_some_and(|lens| lens.dispersion));
+    flag("LENS_SHAPE", system.is_some_and(|lens| opening > 0 || lens.opening.anamorphic != 1.0));
+}
+
 /// The switches of a stage: only those that its files ask for, so that a scene edit compiles only what it touches.
 pub fn defines(
     scene: &Scene,
@@ -134,9 +180,7 @@ pub fn defines(
                 set("FILTER", i.to_string());
             }
         }
-        if features.lens {
-            set("HAS_LENS", "1".to_owned());
-        }
+        camera(scene, &mut set);
     }
     let mut flag = |name: &str, on: bool| {
         if on {

@@ -1,29 +1,16 @@
 //! The uniform block: what stays the same during a slice.
 
+use super::camera;
 use super::plan::{Slice, Tiles};
 use crate::layout::{Frame, PATH_DEPTH_BITS, ROUNDS_A_STEP};
 use crate::prepare::{self, Prepared};
 use crate::scene::{Scene, Value};
-use glam::Vec3;
 
 /// The part of the block that no slice changes.
 pub(super) fn of_scene(scene: &Scene, prepared: &Prepared, threads: u32) -> Frame {
-    let (film, render, camera) = (&scene.film, &scene.render, &scene.camera);
+    let (film, render) = (&scene.film, &scene.render);
     let window = film.window();
-    let aspect = film.width as f32 / film.height as f32;
-    let world = camera.world_from_camera();
-    let tan_y = camera.tan_half_vertical_fov(aspect);
     let mut frame = Frame {
-        camera_right: Vec3::from(world.matrix3.x_axis).to_array(),
-        tan_x: tan_y * aspect,
-        camera_up: Vec3::from(world.matrix3.y_axis).to_array(),
-        tan_y,
-        camera_back: Vec3::from(world.matrix3.z_axis).to_array(),
-        lens_radius: camera.lens_radius(aspect),
-        camera_position: camera.position.to_array(),
-        focus_distance: camera.lens.map_or(1.0, |lens| lens.focus_distance),
-        blades: camera.lens.map_or(0, |lens| lens.blades),
-        blade_rotation: camera.lens.map_or(0.0, |lens| lens.blade_rotation.to_radians()),
         filter_radius: film.filter.radius,
         seed: render.seed,
         film_size: [film.width, film.height],
@@ -45,7 +32,7 @@ pub(super) fn of_scene(scene: &Scene, prepared: &Prepared, threads: u32) -> Fram
         environment_texture: prepared.environment_texture,
         environment_size: prepared.environment_size,
         parked_stack: prepare::stack_size(prepared.stack_entries),
-        ..Frame::default()
+        ..camera::of_scene(scene, prepared)
     };
     if let Some(environment) = &scene.environment {
         let [row0, row1, row2] = prepare::environment_rows(environment);

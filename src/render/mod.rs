@@ -1,5 +1,6 @@
 //! [`Resident`] → [`Film`]: the plan and its execution.
 
+mod camera;
 mod evaluate;
 mod frame;
 mod kernels;

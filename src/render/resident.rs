@@ -30,6 +30,7 @@ impl Resident {
         put("texels", bytemuck::cast_slice(&std::mem::take(&mut prepared.texels)))?;
         put("lights", bytemuck::cast_slice(&prepared.lights))?;
         put("environment", bytemuck::cast_slice(&std::mem::take(&mut prepared.environment)))?;
+        put("lens", bytemuck::cast_slice(&std::mem::take(&mut prepared.lens.words)))?;
         Ok(Self { buffers })
     }
 

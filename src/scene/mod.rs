@@ -12,7 +12,10 @@ mod material;
 mod store;
 mod texture;
 
-pub use camera::{Aperture, Camera, FovAxis, Lens};
+pub use camera::{
+    Aperture, Camera, FisheyeMapping, Focus, FovAxis, Lens, LensCamera, LensInterface, LensSystem, Measure,
+    Opening, Paraxial, Perspective, Projection, Pupil, Stop, half_height,
+};
 pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};

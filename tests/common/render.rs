@@ -12,8 +12,8 @@ use dapple::film::{Film, Picture};
 use dapple::gpu::{DeviceChoice, DeviceType, Gpu};
 use dapple::render::{Next, Options, Renderer};
 use dapple::scene::{
-    Camera, Conductor, Dielectric, Emission, Environment, FovAxis, Fresnel, Handle, Image, ImageTexture,
-    Instance, Light, Material, Mesh, Roughness, Scene, Shape, ShapeKind, Surface, Texture, Value,
+    Camera, Conductor, Dielectric, Emission, Environment, Fresnel, Handle, Image, ImageTexture, Instance,
+    Light, Material, Mesh, Projection, Roughness, Scene, Shape, ShapeKind, Surface, Texture, Value,
 };
 use dapple::shader::{CacheOptions, Compiler, Sources};
 use glam::{Affine3A, DVec3, Mat3, Vec3};
@@ -149,7 +149,7 @@ pub fn scene(width: u32, height: u32, spp: u32) -> Scene {
 pub fn look(position: Vec3, target: Vec3, fov: f32) -> Camera {
     let view = (target - position).normalize();
     let up = if view.y.abs() > 0.99 { -Vec3::Z } else { Vec3::Y };
-    Camera { position, target, up, fov, fov_axis: FovAxis::Vertical, mirrored: false, lens: None }
+    Camera { position, target, up, mirrored: false, projection: Projection::pinhole(fov) }
 }
 
 /// Grey.
@@ -313,7 +313,8 @@ pub fn center_ray(scene: &Scene, x: u32, y: u32) -> (DVec3, DVec3) {
     let right = camera.up.as_dvec3().cross(back).normalize();
     let up = back.cross(right);
     let right = if camera.mirrored { -right } else { right };
-    let tan = (f64::from(camera.fov).to_radians() / 2.0).tan();
+    let Projection::Perspective(view) = &camera.projection else { panic!("no perspective") };
+    let tan = (f64::from(view.fov).to_radians() / 2.0).tan();
     let px = (2.0 * (f64::from(x) + 0.5) / width - 1.0) * tan * width / height;
     let py = (1.0 - 2.0 * (f64::from(y) + 0.5) / height) * tan;
     (camera.position.as_dvec3(), (right * px + up * py - back).normalize())

@@ -29,7 +29,9 @@ fn a_known_point_falls_on_the_right_pixel() {
         for mirrored in [false, true] {
             let mut s = scene(width, height, 2048);
             s.camera = look(Vec3::new(1.0, 2.0, 3.0), Vec3::new(-1.0, 1.0, -4.0), 60.0);
-            (s.camera.fov_axis, s.camera.mirrored) = (axis, mirrored);
+            s.camera.projection =
+                Projection::Perspective(Perspective { fov: 60.0, fov_axis: axis, lens: None });
+            s.camera.mirrored = mirrored;
             let m = s.unlit(grey(1.0));
             let back = (s.camera.position - s.camera.target).normalize();
             let right = Vec3::Y.cross(back).normalize();
@@ -54,7 +56,9 @@ fn a_known_point_falls_on_the_right_pixel() {
 }
 
 fn lens(radius: f32, focus_distance: f32, blades: u32, blade_rotation: f32) -> Option<Lens> {
-    Some(Lens { aperture: Aperture::Radius(radius), focus_distance, blades, blade_rotation })
+    let mut lens = Lens::new(Aperture::Radius(radius), focus_distance);
+    (lens.opening.blades, lens.opening.blade_rotation) = (blades, blade_rotation);
+    Some(lens)
 }
 
 /// Radius of the disk of `through_lens` on the film, in pixels.
@@ -63,8 +67,8 @@ const SPOT: f64 = 1.92;
 /// A small disk at `at`, which is as large from everywhere on the lens, through a lens: 32 × 32 pixels that span ±0.5 at distance 1.
 fn through_lens(at: Vec3, lens: Option<Lens>) -> Picture {
     let mut s = scene(32, 32, 4096);
-    s.camera.fov = 2.0 * 0.5_f32.atan().to_degrees();
-    s.camera.lens = lens;
+    let fov = 2.0 * 0.5_f32.atan().to_degrees();
+    s.camera.projection = Projection::Perspective(Perspective { fov, fov_axis: FovAxis::Vertical, lens });
     let m = s.unlit(grey(1.0));
     s.disk(at, Vec3::Z, SPOT as f32 / 32.0 * -at.z, m);
     render(&s)
@@ -117,10 +121,7 @@ fn blades_make_a_polygon() {
 #[test]
 fn f_number_is_a_radius() {
     let number = Aperture::FNumber { number: 1.4, sensor_height: 0.5 };
-    let with = |aperture| {
-        let l = Lens { aperture, focus_distance: 2.0, blades: 0, blade_rotation: 0.0 };
-        through_lens(Vec3::new(0.0, 0.0, -4.0), Some(l))
-    };
+    let with = |aperture| through_lens(Vec3::new(0.0, 0.0, -4.0), Some(Lens::new(aperture, 2.0)));
     // Focal length 0.5 / (2 · 0.5) = 0.5, so the radius is 0.5 / 2.8
     assert_eq!(with(number).rgb, with(Aperture::Radius(0.5 / 2.8)).rgb);
 }
@@ -130,7 +131,8 @@ fn the_plane_of_focus_is_sharp_to_the_corner() {
     // Black and white halves on the plane of focus: with and without a lens the same, but for pixels on the border
     let with = |lens| {
         let mut s = scene(16, 16, 64);
-        s.camera.lens = lens;
+        let (fov, fov_axis) = (90.0, FovAxis::Vertical);
+        s.camera.projection = Projection::Perspective(Perspective { fov, fov_axis, lens });
         let (white, black) = (s.unlit(grey(1.0)), s.unlit(grey(0.0)));
         s.quad(Vec3::new(1.3, -9.0, -3.0), Vec3::X * 9.0, Vec3::Y * 18.0, white);
         s.quad(Vec3::new(-9.0, -9.0, -3.0), Vec3::X * 10.3, Vec3::Y * 18.0, black);

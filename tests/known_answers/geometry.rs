@@ -232,7 +232,7 @@ fn random_triangles_spheres_and_disks_against_brute_force() {
         let mut random = Random(seed);
         let mut s = scene(48, 48, 1);
         s.camera.position = Vec3::new(0.0, 0.0, 6.0);
-        s.camera.fov = 50.0;
+        s.camera.projection = Projection::pinhole(50.0);
         // Each thing has a colour of its own, in two sets of materials so that it names the thing
         let shade = |i: usize| 0.05 + 0.9 * (i as f32) / 400.0;
         let mut triangles = Vec::new();

@@ -129,7 +129,7 @@ fn a_camera_inside_glass_sees_its_absorption() {
     let mut s = scene(4, 4, 4096);
     s.render.max_depth = 1;
     s.environment = constant_environment(1.0);
-    s.camera.fov = 0.1;
+    s.camera.projection = Projection::pinhole(0.1);
     let m = s.glass(1.5, 0.0, Vec3::new(0.2, 0.5, 1.0), false);
     s.sphere(Vec3::ZERO, 2.0, m);
     // 2 units of glass, then out: 1 − R, and radiance 1/η² · … of the way from air to glass is 2.25
@@ -142,7 +142,7 @@ fn a_camera_inside_glass_sees_its_absorption() {
 fn ball_beside_the_camera(build: impl FnOnce(&mut Scene, Handle<Material>)) -> Measured {
     let mut s = scene(4, 4, 64);
     s.render.max_depth = 1;
-    s.camera.fov = 0.1;
+    s.camera.projection = Projection::pinhole(0.1);
     let m = s.glass(1.5, 0.0, Vec3::new(0.2, 0.5, 1.0), false);
     build(&mut s, m);
     let white = s.unlit(grey(1.0));

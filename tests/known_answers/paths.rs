@@ -153,7 +153,7 @@ fn unlit_is_seen_exactly() {
     // Behind a mirror, times its reflectance
     let mirror = s.conductor(0.5, 0.0, Fresnel::None);
     s.quad(Vec3::new(-0.9, -0.9, -0.5), Vec3::X * 1.8, Vec3::Y * 1.8, mirror);
-    s.camera.fov = 20.0;
+    s.camera.projection = Projection::pinhole(20.0);
     expect_every_pixel(&render(&s), [0.125, 1.25, 0.35], 6e-6);
 }
 

@@ -8,7 +8,7 @@ use glam::Vec3;
 /// A wall at z = −2 with a material, facing the camera or turned away from it.
 fn wall(material: Material, turned: bool) -> Picture {
     let mut s = scene(4, 4, 4);
-    s.camera.fov = 40.0;
+    s.camera.projection = Projection::pinhole(40.0);
     let material = s.materials.add("wall", material);
     let (u, v) = if turned { (Vec3::Y, Vec3::X) } else { (Vec3::X, Vec3::Y) };
     s.quad(Vec3::new(-5.0, -5.0, -2.0), u * 10.0, v * 10.0, material);

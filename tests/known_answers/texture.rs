@@ -266,7 +266,7 @@ fn pictures_of_all_sizes_and_formats_do_not_bleed() {
             expected.push((floats, size));
         }
     }
-    s.camera.fov = 2.0 * (2.0_f32 / 20.0).atan().to_degrees();
+    s.camera.projection = Projection::pinhole(2.0 * (2.0_f32 / 20.0).atan().to_degrees());
     let p = render(&s);
     for i in 0..160 {
         let (x, v) = ((f64::from(i % 40) + 0.5) / 40.0 * 30.0, 1.0 - (f64::from(i / 40) + 0.5) / 4.0);

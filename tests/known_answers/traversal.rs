@@ -71,7 +71,7 @@ fn grids_seen_exactly_along_their_edges_have_no_gaps() {
     }
     let mut s = scene(31, 31, 1);
     // The picture spans ±7.75 at distance 8: pixel centres every half unit, from −7.5 to 7.5
-    s.camera.fov = 2.0 * (7.75_f32 / 8.0).atan().to_degrees();
+    s.camera.projection = Projection::pinhole(2.0 * (7.75_f32 / 8.0).atan().to_degrees());
     let m = s.diffuse(0.5);
     let handle = s.meshes.add("grid", mesh);
     s.place(handle, m, Affine3A::IDENTITY);
@@ -89,7 +89,7 @@ fn a_thin_scene_far_away_is_seen() {
         s.meshes.add("board", box_mesh(Vec3::new(-0.5, -0.5, -far - 0.01), Vec3::new(0.5, 0.5, -far), false));
     s.place(mesh, m, Affine3A::IDENTITY);
     s.sphere(Vec3::new(0.0, 1.0, -far), 0.25, m);
-    s.camera.fov = (2.0_f32 * 2.0 / far).to_degrees();
+    s.camera.projection = Projection::pinhole((2.0_f32 * 2.0 / far).to_degrees());
     let p = aovs(&mut s);
     for i in 0..256 {
         let (x, y) = ((i % 16) as f32 / 4.0 - 1.875, 1.875 - (i / 16) as f32 / 4.0);

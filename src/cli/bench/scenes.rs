@@ -2,8 +2,8 @@
 
 use super::blob;
 use dapple::scene::{
-    Camera, Conductor, Dielectric, Emission, Environment, Film, Fresnel, Handle, Instance, Material, Render,
-    Roughness, Scene, Shape, ShapeKind, Surface, Value,
+    Camera, Conductor, Dielectric, Emission, Environment, Film, Fresnel, Handle, Instance, Material,
+    Projection, Render, Roughness, Scene, Shape, ShapeKind, Surface, Value,
 };
 use glam::{Affine3A, Mat3, Quat, Vec3};
 
@@ -98,7 +98,7 @@ fn room(max_depth: u32) -> Scene {
         camera: Camera {
             position: Vec3::new(0.0, 1.2, 4.2),
             target: Vec3::new(0.0, -0.1, 0.0),
-            fov: 45.0,
+            projection: Projection::pinhole(45.0),
             ..Camera::default()
         },
         environment: Some(Environment {

@@ -1,6 +1,7 @@
 //! What the scene reader needs from the file system.
 
-use crate::scene::{Image, Mesh};
+use crate::import::Spacing;
+use crate::scene::{Image, LensSystem, Mesh};
 use crate::{Error, Result};
 use std::fs::File;
 use std::io::Read;
@@ -22,6 +23,14 @@ pub trait Assets {
     /// # Errors
     /// When the file cannot be read or is no mesh.
     fn mesh(&mut self, path: &Path) -> Result<Mesh>;
+
+    /// Reads a lens of several elements.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is no lens.
+    fn lens(&mut self, path: &Path, spacing: Spacing) -> Result<LensSystem> {
+        crate::import::read_lens(path, spacing)
+    }
 
     /// Whether the file is there, so that a wrong name is reported at its place in the scene.
     fn exists(&mut self, path: &Path) -> bool {

@@ -45,21 +45,48 @@ pub(super) const RENDER: &[&str] = &[
     "geometric_veto",
 ];
 
-pub(super) const CAMERA: &[&str] = &[
-    "position",
-    "target",
-    "up",
+const PERSPECTIVE: &[&str] = &[
     "fov",
     "fov_axis",
-    "mirrored",
     "lens_radius",
     "f_number",
     "sensor_height",
     "focus_distance",
     "focus_point",
+    "focus_normal",
     "blades",
     "blade_rotation",
+    "anamorphic",
+    "aperture_image",
+    "cat_eye",
 ];
+const LENS: &[&str] = &[
+    "file",
+    "spacing",
+    "unit",
+    "sensor_diagonal",
+    "focus_distance",
+    "focus_point",
+    "f_number",
+    "aperture",
+    "blades",
+    "blade_rotation",
+    "anamorphic",
+    "aperture_image",
+    "dispersion",
+    "measure",
+];
+
+pub(super) const CAMERA: Kinds = Kinds {
+    common: &["kind", "position", "target", "up", "mirrored"],
+    kinds: &[
+        ("perspective", PERSPECTIVE),
+        ("orthographic", &["view_size", "fov_axis"]),
+        ("equirectangular", &[]),
+        ("fisheye", &["mapping", "fov", "fov_axis"]),
+        ("lens", LENS),
+    ],
+};
 
 const IMAGE: &[&str] = &[
     "file",
@@ -232,7 +259,15 @@ pub(super) const ENVIRONMENT: &[&str] = &["color", "texture", "scale", "rotate",
 
 /// Keys of which an object has one at most. A file that includes another, and `--set`, replace one by the other.
 pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
-    ("camera", &[&["lens_radius", "f_number"], &["focus_distance", "focus_point"]]),
+    (
+        "camera",
+        &[
+            &["lens_radius", "f_number"],
+            &["f_number", "aperture"],
+            &["focus_distance", "focus_point"],
+            &["blades", "aperture_image"],
+        ],
+    ),
     ("environment", &[&["color", "texture"], &["rotate", "transform"]]),
     ("material", &[&["roughness", "alpha"], &["fresnel", "eta"], &["fresnel", "k"], &["reflectance", "eta"]]),
     ("shape", &[&["origin", "center"]]),

@@ -10,6 +10,7 @@ mod document;
 mod film;
 mod include;
 mod keys;
+mod lens;
 mod light;
 mod material;
 mod mesh;

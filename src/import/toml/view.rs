@@ -37,11 +37,23 @@ impl<'a> View<'a> {
         what: String,
         keys: &Kinds,
     ) -> Result<(Self, &'static str)> {
+        Self::of_kind_or(sources, node, what, keys, "")
+    }
+
+    /// The same, with the kind of an object that does not say it; `""` is none.
+    pub fn of_kind_or(
+        sources: &'a Sources,
+        node: &'a Node,
+        what: String,
+        keys: &Kinds,
+        default: &str,
+    ) -> Result<(Self, &'static str)> {
         let any = Self::checked(sources, node, what, |_| true, |_| String::new())?;
         let choices: Vec<_> = keys.kinds.iter().map(|kind| (kind.0, kind)).collect();
-        let (kind, own) = match any.get("kind") {
-            Some(item) => *item.choice(&choices)?,
-            None => {
+        let (kind, own) = match (any.get("kind"), keys.kinds.iter().find(|kind| kind.0 == default)) {
+            (Some(item), _) => *item.choice(&choices)?,
+            (None, Some(kind)) => *kind,
+            (None, None) => {
                 let names: Vec<_> = keys.kinds.iter().map(|(name, _)| format!("\"{name}\"")).collect();
                 return Err(any
                     .error(format!("`kind` is missing in {}", any.what))
@@ -57,7 +69,7 @@ impl<'a> View<'a> {
                 _ => format!("it is a key of {}", others.join(", ")),
             }
         };
-        let what = format!("{kind} {}", any.what);
+        let what = if any.get("kind").is_some() { format!("{kind} {}", any.what) } else { any.what };
         Ok((Self::checked(sources, node, what, |key| known().any(|other| other == key), help)?, kind))
     }
 

@@ -41,6 +41,18 @@ def cylinder(name, sides):
     (HERE / name).write_text("\n".join(lines) + "\n")
 
 
+def cylinder_uv(name, sides):
+    """The same with u around it and v along it."""
+    lines = ["ply", "format ascii 1.0", f"element vertex {2 * (sides + 1)}"]
+    lines += [f"property float {p}" for p in ("x", "y", "z", "nx", "ny", "nz", "u", "v")]
+    lines += [f"element face {sides}", "property list uchar int vertex_indices", "end_header"]
+    for i in range(sides + 1):
+        c, s = math.cos(2 * math.pi * i / sides), math.sin(2 * math.pi * i / sides)
+        lines += [f"{c:.8f} {s:.8f} {z} {c:.8f} {s:.8f} 0 {i / sides:.8f} {z}" for z in (0, 1)]
+    lines += [f"4 {2 * i} {2 * i + 2} {2 * i + 3} {2 * i + 1}" for i in range(sides)]
+    (HERE / name).write_text("\n".join(lines) + "\n")
+
+
 def grey(value):
     return (value, value, value)
 
@@ -50,3 +62,4 @@ checker("checker_l_materials.png", grey(0.6), grey(0.25))
 checker("checker_m_dielectric.png", (0.7, 0.3, 0.1), (0.1, 0.3, 0.5))
 checker("checker_m_thinlens.png", (0.7, 0.2, 0.1), (0.1, 0.2, 0.3))
 cylinder("cylinder.ply", 256)
+cylinder_uv("cylinder_uv.ply", 256)

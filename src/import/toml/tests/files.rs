@@ -29,7 +29,7 @@ fn includes_join_tables_and_the_including_file_wins() {
     let (scene, warnings) = read_scene_with(Path::new("a/scene.toml"), &[], &mut memory).unwrap();
     assert_eq!((scene.render.spp, scene.render.seed), (5, 4));
     assert_eq!(scene.shapes.len(), 1, "base.toml is read once");
-    let lens = scene.camera.lens.unwrap();
+    let lens = scene.camera.thin_lens().unwrap();
     assert_eq!(lens.aperture, Aperture::FNumber { number: 4.0, sensor_height: 0.024 });
     assert_eq!(memory.loaded, ["a/lib/t.png"], "relative to the file that names it");
     let warnings: Vec<_> = warnings.iter().map(ToString::to_string).collect();

@@ -10,7 +10,6 @@ fn every_key() -> BTreeSet<(&'static str, &'static str)> {
         ("include", keys::TOP),
         ("[film]", keys::FILM),
         ("[render]", keys::RENDER),
-        ("[camera]", keys::CAMERA),
         ("[mesh.NAME]", keys::MESH),
         ("[[instance]]", keys::INSTANCE),
         ("transform", keys::STEP),
@@ -18,7 +17,8 @@ fn every_key() -> BTreeSet<(&'static str, &'static str)> {
         ("normal_map", keys::NORMAL_MAP),
         ("[environment]", keys::ENVIRONMENT),
     ];
-    let kinds: [(&str, &Kinds); 4] = [
+    let kinds: [(&str, &Kinds); 5] = [
+        ("[camera]", &keys::CAMERA),
         ("[texture.NAME]", &keys::TEXTURE),
         ("[material.NAME]", &keys::MATERIAL),
         ("[[shape]]", &keys::SHAPE),

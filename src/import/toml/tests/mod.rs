@@ -6,6 +6,7 @@ mod manual;
 mod patterns;
 
 use super::{Assets, Warning, read_scene_with};
+use crate::import::Spacing;
 use crate::scene::*;
 use crate::{Error, Result};
 use glam::{Affine3A, Mat3, Vec2, Vec3};
@@ -47,6 +48,11 @@ impl Assets for Memory {
             triangles: vec![[0, 1, 2]; 2],
             parts: vec![part("steel", 0), part("paint", 1)],
         })
+    }
+
+    fn lens(&mut self, path: &Path, spacing: Spacing) -> Result<LensSystem> {
+        let text = "# A singlet\n50 4 1.5 20 60\n-50 2 1 20\n0 0 0 9\n";
+        crate::import::lens::parse(text, spacing, path)
     }
 
     fn exists(&mut self, path: &Path) -> bool {
@@ -118,13 +124,48 @@ fn film_and_render_take_every_key() {
 fn camera_takes_every_key() {
     let camera = all().camera;
     assert_eq!((camera.position, camera.target), (Vec3::new(0.0, 1.0, 4.0), Vec3::Y));
-    assert_eq!((camera.fov, camera.fov_axis, camera.mirrored), (50.0, FovAxis::Smaller, true));
+    assert!(camera.mirrored);
+    let Projection::Perspective(view) = camera.projection else { panic!() };
+    assert_eq!((view.fov, view.fov_axis), (50.0, FovAxis::Smaller));
     let aperture = Aperture::FNumber { number: 2.8, sensor_height: 0.036 };
-    assert_eq!(camera.lens, Some(Lens { aperture, focus_distance: 3.0, blades: 6, blade_rotation: 15.0 }));
-    let (scene, _) = read("[camera]\nlens_radius = 0.1\nfocus_point = [9, 9, 2]").unwrap();
-    let lens = scene.camera.lens.unwrap();
-    assert_eq!((lens.aperture, lens.focus_distance), (Aperture::Radius(0.1), 3.0));
-    assert_eq!(read("[camera]\nlens_radius = 0\nfocus_distance = 1").unwrap().0.camera.lens, None);
+    let opening = Opening { blades: 6, blade_rotation: 15.0, anamorphic: 1.5, image: None };
+    let focus = Focus::Plane { point: Vec3::new(0.0, 1.0, 1.0), normal: Vec3::Z };
+    assert_eq!(view.lens, Some(Lens { aperture, focus, opening, cat_eye: 0.5 }));
+    let lens = |text: &str| read(&format!("[camera]\n{text}")).unwrap().0.camera.thin_lens();
+    let near = lens("lens_radius = 0.1\nfocus_point = [9, 9, 2]").unwrap();
+    assert_eq!(near, Lens::new(Aperture::Radius(0.1), 3.0));
+    assert_eq!(lens("lens_radius = 0\nfocus_distance = 1"), None);
+    let shaped = lens("lens_radius = 1\nfocus_distance = 1\naperture_image = 'heart.png'").unwrap();
+    assert!(shaped.opening.image.is_some());
+}
+
+#[test]
+fn cameras_of_every_kind() {
+    let camera = |text: &str| read(&format!("[camera]\n{text}")).unwrap().0.camera.projection;
+    let axis = FovAxis::Vertical;
+    assert_eq!(camera("kind = 'perspective'"), Camera::default().projection);
+    assert_eq!(camera("kind = 'orthographic'\nview_size = 3"), Projection::Orthographic { size: 3.0, axis });
+    assert_eq!(camera("kind = 'equirectangular'"), Projection::Equirectangular);
+    let mapping = FisheyeMapping::Equisolid;
+    let fisheye = Projection::Fisheye { mapping, fov: 180.0, axis: FovAxis::Smaller };
+    assert_eq!(camera("kind = 'fisheye'\nmapping = 'equisolid'\nfov_axis = 'smaller'"), fisheye);
+    let Projection::Lens(lens) =
+        camera("kind = 'lens'\nfile = 'a.dat'\nfocus_point = [0, 0, 3]\nf_number = 8")
+    else {
+        panic!()
+    };
+    assert_eq!((lens.focus_distance, lens.unit, lens.sensor_diagonal), (2.0, 1000.0, 0.035));
+    assert_eq!((lens.dispersion, lens.measure), (true, Measure::Radiance));
+    let f_number = lens.paraxial().unwrap().f_number();
+    assert!((f_number - 8.0).abs() < 1e-6, "{f_number}");
+    let Projection::Lens(lens) = camera(
+        "kind = 'lens'\nfile = 'a.dat'\nspacing = 'next'\nfocus_distance = 200\nunit = 1\nsensor_diagonal = 43\n\
+         aperture = 5\ndispersion = false\nmeasure = 'irradiance'\nblades = 5",
+    ) else {
+        panic!()
+    };
+    assert_eq!((lens.stop_diameter, lens.sensor_diagonal, lens.opening.blades), (5.0, 43.0, 5));
+    assert_eq!((lens.dispersion, lens.measure), (false, Measure::Irradiance));
 }
 
 #[test]

@@ -50,7 +50,7 @@ impl Reader<'_> {
     }
 
     /// The picture of a file, loaded once.
-    fn image(&mut self, file: Item<'_>) -> Result<Handle<Image>> {
+    pub(in crate::import::toml) fn image(&mut self, file: Item<'_>) -> Result<Handle<Image>> {
         let path = file.path()?;
         let identity = identity(&path);
         if let Some(&handle) = self.images.get(&identity) {
