@@ -28,14 +28,17 @@ CameraRay fisheye_sample(vec2 film_01)
     vec2 plane = picture_plane(film_01);
     float r = length(plane);
 #ifdef FISHEYE_EQUISOLID
-    // r = sin(θ / 2) / sin(fov / 4)
-    float theta = 2.0 * asin(min(r * frame.fisheye_scale, 1.0));
+    // sin(θ / 2) = r sin(fov / 4); without an arc sine, which drivers round to 4 digits
+    float half_sine = min(r * frame.fisheye_scale, 1.0);
+    float sine = 2.0 * half_sine * safe_sqrt(1.0 - half_sine * half_sine);
+    float cosine = 1.0 - 2.0 * half_sine * half_sine;
     float spread = pixel_height() * 2.0 * frame.fisheye_scale;
 #else
-    float theta = r * frame.fisheye_scale;
+    float sine = sin(r * frame.fisheye_scale);
+    float cosine = cos(r * frame.fisheye_scale);
     float spread = pixel_height() * frame.fisheye_scale;
 #endif
-    vec2 out_of_view = r > 0.0 ? plane * (sin(theta) / r) : vec2(0.0);
-    vec3 direction = normalize(world_from_view(vec3(out_of_view, cos(theta))));
+    vec2 across = r > 0.0 ? plane * (sine / r) : vec2(0.0);
+    vec3 direction = normalize(world_from_view(vec3(across, cosine)));
     return CameraRay(frame.camera_position, direction, vec3(r <= 1.0 ? 1.0 : 0.0), 0.0, spread);
 }

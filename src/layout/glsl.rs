@@ -1,7 +1,7 @@
 //! Writes `shaders/shared/layout.glsl`.
 
 use super::constants::CONSTANTS;
-use super::{RECORDS, RecordInfo};
+use super::{RecordInfo, records};
 use std::fmt::Write as _;
 
 /// The text of `shaders/shared/layout.glsl`: constants, then each record with its unpacking function.
@@ -11,7 +11,7 @@ pub fn layout_glsl() -> String {
     for (name, value, doc) in CONSTANTS {
         _ = writeln!(out, "const uint {name} = {value}u; // {doc}");
     }
-    for record in RECORDS {
+    for record in records() {
         write_record(&mut out, record);
     }
     out

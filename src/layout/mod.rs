@@ -10,12 +10,14 @@ mod declare;
 mod bindings;
 mod constants;
 mod glsl;
+mod lens;
 mod patterns;
 mod records;
 
 pub use bindings::{BINDINGS, Backend, Binding, BindingKind, bindings_glsl};
 pub use constants::*;
 pub use glsl::layout_glsl;
+pub use lens::{LensInterface, OpeningCell, PupilBounds};
 pub use patterns::*;
 pub use records::*;
 
@@ -79,16 +81,9 @@ impl RecordInfo {
 }
 
 /// Every record, in the order of `layout.glsl`.
-pub const RECORDS: &[RecordInfo] = &{
-    let mut all = [RecordInfo::of::<Frame>(); records::ALL.len() + patterns::ALL.len()];
-    let mut i = 0;
-    while i < all.len() {
-        let own = records::ALL.len();
-        all[i] = if i < own { records::ALL[i] } else { patterns::ALL[i - own] };
-        i += 1;
-    }
-    all
-};
+pub fn records() -> impl Iterator<Item = &'static RecordInfo> {
+    [records::ALL, patterns::ALL, lens::ALL].into_iter().flatten()
+}
 
 #[cfg(test)]
 mod tests {

@@ -16,6 +16,7 @@ mod floor;
 mod furnace;
 mod geometry;
 mod glass;
+mod lens;
 mod light;
 mod material;
 mod offset;

@@ -4,11 +4,13 @@
 mod common;
 
 mod base;
+mod camera;
 mod choice;
 mod fresnel;
 mod geometry;
 mod ggx;
 mod layout;
+mod lens;
 mod light;
 mod lobe;
 mod material;

@@ -6,8 +6,8 @@ mod materials;
 mod objects;
 mod textures;
 
-use dapple::import::{Assets, read_scene_with};
-use dapple::scene::{Image, Mesh, MeshPart, Texels};
+use dapple::import::{Assets, Spacing, read_lens, read_scene_with};
+use dapple::scene::{Image, LensSystem, Mesh, MeshPart, Texels};
 use dapple::{Error, Result};
 use glam::Vec3;
 use std::collections::BTreeMap;
@@ -27,6 +27,19 @@ impl Assets for Memory {
         let part = |name: &str, at| MeshPart { name: name.into(), triangles: at..at + 1, material: None };
         let parts = vec![part("Steel", 0), part("Glass", 1)];
         Ok(Mesh { positions: vec![Vec3::ZERO; 3], triangles: vec![[0, 1, 2]; 2], parts, ..Mesh::default() })
+    }
+    fn lens(&mut self, path: &Path, spacing: Spacing) -> Result<LensSystem> {
+        let text = match path.to_str() {
+            Some("bad.dat") => "# bad\n50 4 1.5 20\n-50 x 1 20\n",
+            Some("spreads.dat") => "-50 4 1.5 20\n50 0 1 20\n",
+            _ => "50 4 1.5 20 60\n-50 2 1 20\n0 0 0 9\n",
+        };
+        let file = tempfile::NamedTempFile::new().map_err(|e| Error::scene(e.to_string()))?;
+        std::fs::write(file.path(), text).map_err(|e| Error::scene(e.to_string()))?;
+        read_lens(file.path(), spacing).map_err(|mut error| {
+            error.place.iter_mut().for_each(|place| place.file = path.to_path_buf());
+            error
+        })
     }
     fn exists(&mut self, path: &Path) -> bool {
         !path.display().to_string().contains("missing")
@@ -176,6 +189,77 @@ fn cameras() {
         (
             "[camera]\nlens_radius = 1\nfocus_distance = 1\nblades = 2",
             "4:10: `blades` is 2, must be 0 for a circle, or from 3 to 64",
+        ),
+        (
+            "[camera]\nlens_radius = 1\nfocus_distance = 1\nblades = 5\naperture_image = 'a.png'",
+            "5:18: [camera] has both `blades` and `aperture_image`; keep one of them",
+        ),
+        (
+            "[camera]\nlens_radius = 1\nfocus_distance = 1\naperture_image = 'missing.png'",
+            "4:18: there is no file missing.png",
+        ),
+        (
+            "[camera]\nlens_radius = 1\nfocus_point = [0, 9, 5]\nfocus_normal = [1, 0, 0]",
+            "4:16: the plane of focus goes through the camera",
+        ),
+        (
+            "[camera]\nlens_radius = 1\nfocus_distance = 1\nanamorphic = 0",
+            "4:14: `anamorphic` is 0, must be from 0.1 to 10",
+        ),
+        (
+            "[camera]\ncat_eye = 1",
+            "2:11: `cat_eye` needs a lens, and the camera is a pinhole; add `lens_radius` or `f_number`",
+        ),
+    ]);
+}
+
+#[test]
+fn cameras_of_other_kinds() {
+    check(&[
+        (
+            "[camera]\nkind = 'fish'",
+            "2:8: `kind` is \"fish\", must be one of \"perspective\", \"orthographic\", \"equirectangular\", \"fisheye\", \"lens\"",
+        ),
+        (
+            "[camera]\nkind = 'orthographic'\nfov = 40",
+            "3:1: unknown key `fov` in orthographic [camera]; it is a key of perspective, fisheye",
+        ),
+        ("[camera]\nkind = 'orthographic'\nview_size = 0", "3:13: `view_size` is 0, must be above 0"),
+        ("[camera]\nkind = 'fisheye'\nfov = 361", "3:7: `fov` is 361, must be above 0 and at most 360"),
+        (
+            "[camera]\nkind = 'fisheye'\nmapping = 'equiangular'",
+            "3:11: `mapping` is \"equiangular\", must be one of \"equidistant\", \"equisolid\"",
+        ),
+        ("[camera]\nview_size = 3", "2:1: unknown key `view_size` in [camera]; it is a key of orthographic"),
+        ("[camera]\nkind = 'lens'", "1:1: `file` is missing in lens [camera]"),
+        (
+            "[camera]\nkind = 'lens'\nfile = 'a.dat'",
+            "3:8: `file` needs a plane of focus; add `focus_distance` or `focus_point`",
+        ),
+        (
+            "[camera]\nkind = 'lens'\nfile = 'missing.dat'\nfocus_distance = 1",
+            "3:8: there is no file missing.dat",
+        ),
+        ("[camera]\nkind = 'lens'\nfile = 'bad.dat'\nfocus_distance = 1", "bad.dat:3: `x` is not a number"),
+        (
+            "[camera]\nkind = 'lens'\nfile = 'spreads.dat'\nfocus_distance = 1",
+            "spreads.dat: the lens spreads light: its focal length is -49.3421 mm; check the signs of the radii, and the order of the rows",
+        ),
+        (
+            "[camera]\nkind = 'lens'\nfile = 'a.dat'\nfocus_distance = 0.1",
+            "4:18: the lens cannot focus on 0.1 in front of the film, only from 0.2040 on; move the camera away, or check `unit`",
+        ),
+        (
+            "[camera]\nkind = 'lens'\nfile = 'a.dat'\nfocus_distance = 1\nf_number = 1",
+            "5:12: `f_number` is 1, must be at least 5.2583, what the lens has wide open",
+        ),
+        (
+            "[camera]\nkind = 'lens'\nfile = 'a.dat'\nfocus_distance = 1\naperture = 0.01",
+            "5:12: `aperture` is 0.01, must be at most 0.009, the stop of the lens",
+        ),
+        (
+            "[camera]\nkind = 'lens'\nfile = 'a.dat'\nfocus_distance = 1\nlens_radius = 1",
+            "5:1: unknown key `lens_radius` in lens [camera]; it is a key of perspective",
         ),
     ]);
 }

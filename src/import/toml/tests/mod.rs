@@ -159,7 +159,7 @@ fn cameras_of_every_kind() {
     let f_number = lens.paraxial().unwrap().f_number();
     assert!((f_number - 8.0).abs() < 1e-6, "{f_number}");
     let Projection::Lens(lens) = camera(
-        "kind = 'lens'\nfile = 'a.dat'\nspacing = 'next'\nfocus_distance = 200\nunit = 1\nsensor_diagonal = 43\n\
+        "kind = 'lens'\nfile = 'a.dat'\nspacing = 'next'\nfocus_distance = 300\nunit = 1\nsensor_diagonal = 43\n\
          aperture = 5\ndispersion = false\nmeasure = 'irradiance'\nblades = 5",
     ) else {
         panic!()
