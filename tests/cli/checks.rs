@@ -71,6 +71,42 @@ fn devices_are_listed_with_the_variables_of_the_loader() {
 }
 
 #[test]
+fn a_lens_is_printed_and_drawn() {
+    let room = Room::new();
+    room.write("lens.dat", "# A singlet\n50 4 1.5 20 60\n-50 2 1 20\n0 0 0 9\n");
+    let ran = room.run("lens lens.dat --focus 1000 --f-number 8 --svg lens.svg").code(0);
+    for row in [
+        "# A singlet",
+        "surfaces               3",
+        "focal length           50.6757 mm",
+        "f-number               8.0000",
+        "stop                   row 3, diameter 5.9",
+        "focused on             1000.0000 mm from the film",
+    ] {
+        assert!(ran.out.contains(row), "no `{row}` in {}", ran.out);
+    }
+    let drawing = std::fs::read_to_string(room.path("lens.svg")).unwrap();
+    assert!(drawing.starts_with("<svg ") && drawing.trim_end().ends_with("</svg>"));
+    // An element, two fans of nine rays, the blades, the axis, the film, two principal planes
+    assert_eq!(drawing.matches("<polygon ").count(), 1);
+    assert!(drawing.matches("<polyline ").count() >= 18 + 2 + 2 + 1, "{drawing}");
+    assert!(!drawing.contains("NaN") && !drawing.contains("inf"), "{drawing}");
+    let ran = room.run("lens lens.dat --json").code(0);
+    let lens: Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(
+        (&lens["stop_row"], &lens["dispersion"], &lens["focus"]),
+        (&json!(3), &json!(true), &Value::Null)
+    );
+    assert!((lens["focal_length"].as_f64().unwrap() - 50.675_675_675).abs() < 1e-6);
+    room.run("lens lens.dat --focus 10")
+        .code(2)
+        .err_has("the lens cannot focus on 10 mm in front of the film");
+    room.run("lens lens.dat --f-number 1").code(2).err_has("the lens opens to f/");
+    room.run("lens scene.toml").code(2).err_has("scene.toml:2: `[film]` is not a number");
+    room.run("lens lens.dat --focus nan").code(2).err_has("write a number above 0");
+}
+
+#[test]
 fn the_version_names_the_driver() {
     let room = Room::new();
     for flag in ["--version", "-V"] {

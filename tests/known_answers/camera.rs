@@ -270,3 +270,49 @@ fn filters_keep_a_constant_and_show_their_profile() {
         expect_every_pixel(&render(&s), [1.0; 3], 0.0);
     }
 }
+
+/// Overlap of two circles of radius 1 whose centres are `d` apart, in parts of one.
+fn overlap(d: f64) -> f64 {
+    if d >= 2.0 {
+        0.0
+    } else {
+        (2.0 * (d / 2.0).acos() - d / 2.0 * (4.0 - d * d).sqrt()) / std::f64::consts::PI
+    }
+}
+
+#[test]
+fn cats_eyes_are_where_two_circles_overlap() {
+    let mut s = scene(16, 16, 8192);
+    let mut lens = Lens::new(Aperture::Radius(0.1), 1e6);
+    lens.cat_eye = 1.2;
+    s.camera.projection = Projection::thin_lens(90.0, lens);
+    s.environment = constant_environment(1.0);
+    let p = render(&s);
+    for (x, y) in [(8, 8), (12, 8), (3, 8), (8, 1), (12, 12), (15, 15)] {
+        let at = |i: usize, part: f64| (i as f64 + part) / 8.0 - 1.0;
+        let expected = integrate_square(16, |u, v| overlap(1.2 * at(x, u).hypot(at(y, v))));
+        expect_grey(mean_of(&p, [y * 16 + x]), expected, 0.02);
+    }
+}
+
+#[test]
+fn a_picture_of_the_opening_is_seen_in_the_blur() {
+    // White on the left or on top. Behind the plane of focus the blur is seen as the lens is from behind.
+    for (texels, horizontal) in [([255, 0, 255, 0], true), ([255, 255, 0, 0], false)] {
+        let texels = Texels::Rgba8(texels.map(|v| [v, v, v, 255]).to_vec());
+        let mut s = scene(32, 32, 4096);
+        let image = s.images.add("opening", Image { width: 2, height: 2, texels });
+        let mut lens = Lens::new(Aperture::Radius(0.8), 2.0);
+        lens.opening = Opening { image: Some(image), anamorphic: 2.0, ..Opening::default() };
+        s.camera.projection = Projection::thin_lens(2.0 * 0.5_f32.atan().to_degrees(), lens);
+        let m = s.unlit(grey(1.0));
+        s.disk(Vec3::new(0.0, 0.0, -4.0), Vec3::Z, 0.24, m);
+        let (x, y, ..) = moments(&render(&s), 32);
+        // Half of the blur's 6.4 pixels, and of the half width that the ratio leaves
+        let expected = if horizontal { (16.0 - 1.6, 16.0) } else { (16.0, 16.0 - 3.2) };
+        assert!(
+            (x - expected.0).abs() < 0.1 && (y - expected.1).abs() < 0.1,
+            "{x} {y}, expected {expected:?}"
+        );
+    }
+}
