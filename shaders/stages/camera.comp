@@ -34,7 +34,7 @@ void main()
     SlotPlace place = slot_place(slot);
     SampleKey key = sample_key(place.pixel, place.sample_index, frame.seed, frame.strata);
     CameraRay ray = camera_sample(film_position(place, key) / vec2(frame.film_size), key);
-    ray_store(slot, WaveRay(ray.origin, 0.0, ray.direction, 0.0));
+    ray_store(slot, WaveRay(ray.origin, ray.width, ray.direction, ray.spread));
     Path path = Path(ray.weight, 0.0, vec3(0.0), 0u, 0u, 0u, frame.camera_medium, 1.0, key);
     path_store(slot, path);
     path_store_medium(slot, path);

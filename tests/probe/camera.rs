@@ -5,7 +5,7 @@ use crate::common::random::Random;
 use dapple::layout::{Backend, Frame};
 use std::f64::consts::{PI, TAU};
 
-/// A camera at (1, 2, 3) that looks along +x, with −z … and y up: right is +z.
+/// A camera at (1, 2, 3) that looks along +x with y up: +z is to the right.
 fn placed(half_x: f32, half_y: f32) -> Frame {
     Frame {
         camera_right: [0.0, 0.0, 1.0],
@@ -206,5 +206,25 @@ fn openings_weigh_what_they_sample() {
             _ => 2.0 * 0.5 + 2.0 * 2.0,
         };
         assert!((mean * 4.84 / area - 1.0).abs() < 0.03, "{shape}: {} {area}", mean * 4.84);
+    }
+}
+
+#[test]
+fn cones_are_as_wide_as_a_pixel() {
+    // Two points of the film, a pixel apart, near the middle
+    let points = [floats(0.5, 0.5, 0.0, 0.0), floats(0.5, 0.5 + 1.0 / 32.0, 0.0, 0.0)];
+    let round = "#define OPENING OPENING_ROUND";
+    let equisolid = format!("#define FISHEYE_EQUISOLID 1\n{round}");
+    for (switches, call, half_y, scale) in [
+        (round, "thin_lens_sample(u.xy, vec2(0.0), vec2(0.0))", 0.3, 0.0),
+        (round, "fisheye_sample(u.xy)", 1.0, 1.5),
+        (equisolid.as_str(), "fisheye_sample(u.xy)", 1.0, 0.7),
+    ] {
+        let frame = Frame { fisheye_scale: scale, ..placed(2.0 * half_y, half_y) };
+        let rays = rays(&frame, switches, call, &points);
+        let dot: f64 = (0..3).map(|i| rays[0].1[i] * rays[1].1[i]).sum();
+        let angle = dot.min(1.0).acos();
+        assert!((rays[0].1[3] / angle - 1.0).abs() < 0.01, "{call}: {} {angle}", rays[0].1[3]);
+        assert_eq!(rays[0].0[3], 0.0);
     }
 }

@@ -4,7 +4,7 @@ use crate::common::probe::{Probe, Word, as_doubles, floats};
 use crate::common::random::Random;
 use dapple::layout::{Backend, Frame};
 use dapple::prepare::lens::{Glass, LensRay, LensTrace};
-use dapple::scene::{LensInterface, LensSystem, Paraxial};
+use dapple::scene::{LensInterface, LensSystem};
 use glam::DVec3;
 
 /// A double Gauss of round numbers, in millimetres, with Abbe numbers.
@@ -89,8 +89,8 @@ fn traced(
 }
 
 fn check(system: &LensSystem, dispersion: bool, inverse_square: f64) {
-    let lens = Paraxial::of(system).unwrap();
-    let film = lens.focus(1000.0).unwrap();
+    // About where it is sharp at 1 m
+    let film = 39.0;
     let glass = if dispersion { Glass::At(inverse_square) } else { Glass::LineD };
     let trace = LensTrace::new(system, film, None, glass);
     let rays = rays(film);

@@ -38,7 +38,7 @@ pub(super) fn prepare(image: &Image, name: &str, out: &mut LensTables) -> Result
         weight: (value * scale) as f32,
         spare: 0,
     });
-    out.words.extend(cells.map(|cell| bytemuck::cast::<_, [u32; 4]>(cell)));
+    out.words.extend(cells.map(bytemuck::cast::<_, [u32; 4]>));
     Ok(())
 }
 
