@@ -7,7 +7,7 @@ use glam::{Affine3A, Vec3};
 /// A white wall at z = −10 in front of a pinhole, seen straight on.
 fn wall(width: u32, spp: u32) -> Scene {
     let mut s = scene(width, width, spp);
-    s.camera.fov = 20.0;
+    s.camera.projection = Projection::pinhole(20.0);
     s.render.max_depth = 1;
     let white = s.unlit(grey(1.0));
     s.quad(Vec3::new(-9.0, -9.0, -10.0), Vec3::X * 18.0, Vec3::Y * 18.0, white);

@@ -45,7 +45,7 @@ fn expect_normals(picture: &Picture, what: &str, tolerance: f64, expected: impl 
 fn facing() -> Scene {
     let mut s = scene(9, 9, 1);
     s.render.sampler = Sampler::Center;
-    s.camera.fov = 2.0 * (0.1_f32).atan().to_degrees();
+    s.camera.projection = Projection::pinhole(2.0 * (0.1_f32).atan().to_degrees());
     s
 }
 
