@@ -9,6 +9,9 @@ float veins_marble(uint w, vec3 p, float width, float noise)
     return 0.5 + 0.5 * wave * octave_weight(resolved_octaves(width * (0.5 / PI)));
 }
 
+// Frequencies of the noise that bends wood.
+const vec3 WOOD_BEND = vec3(0.3, 0.3, 0.08);
+
 // Rings of width 1 about the z axis: light wood that darkens and ends at a line. The variation is at word w, fibres come from
 // noise that is drawn out along z.
 float veins_wood(uint w, vec3 p, float width, vec2 noise)

@@ -12,6 +12,7 @@ mod common;
 mod camera;
 mod emission;
 mod environment;
+mod far_noise;
 mod floor;
 mod furnace;
 mod geometry;

@@ -93,7 +93,7 @@ impl Shape {
             Self::WarpNoise(place, of) => {
                 // Points that share no cell of the lattice: three numbers that do not depend on one another
                 let noise = |offset: &str| {
-                    SUM.call(NOISE_AFTER_NUMBER, &format!("{} + {offset}", place.point()), place)
+                    SUM.call(NOISE_AFTER_NUMBER, &format!("{} + {offset}", place.point()), &place.width())
                 };
                 let [x, y, z] = ["vec3(0.0)", "vec3(31.4, 7.7, 59.3)", "vec3(-17.2, 43.9, -71.5)"].map(noise);
                 let word = Pattern::WORDS;
@@ -160,8 +160,8 @@ impl NoiseShape {
     }
 
     /// The sum at a point, with the record at a word after the first.
-    fn call(&self, word: u32, point: &str, place: &Place) -> String {
-        format!("{}(at + {word}u, vec4({point}, 0.0), {})", self.name(), place.width())
+    fn call(&self, word: u32, point: &str, width: &str) -> String {
+        format!("{}(at + {word}u, vec4({point}, 0.0), {width})", self.name())
     }
 
     /// Its sum in a pattern.
@@ -211,18 +211,24 @@ fn tiles(function: &str, place: &Place, inputs: &str) -> String {
 
 fn veins(kind: VeinKind, place: &Place) -> String {
     let (word, point, width) = (Pattern::WORDS, place.point(), place.width());
-    let sum = |offset: &str| SUM.call(NOISE_AFTER_NUMBER, &format!("{point}{offset}"), place);
     let number = match kind {
         VeinKind::Marble => {
-            let sum = PBRT_SUM.call(NOISE_AFTER_NUMBER, &point, place);
+            let sum = PBRT_SUM.call(NOISE_AFTER_NUMBER, &point, &width);
             format!("veins_marble(at + {word}u, {point}, {width}, {sum})")
         }
         VeinKind::Wood => {
-            let (x, y) = (sum(""), sum(" + vec3(31.4, 7.7, 59.3)"));
+            // A tree bends over several rings, and slowly along its axis
+            let slow = |offset: &str| {
+                let (point, width) =
+                    (format!("{point} * WOOD_BEND + {offset}"), format!("WOOD_BEND.x * {width}"));
+                SUM.call(NOISE_AFTER_NUMBER, &point, &width)
+            };
+            let (x, y) = (slow("0.0"), slow("vec3(31.4, 7.7, 59.3)"));
             format!("veins_wood(at + {word}u, {point}, {width}, vec2({x}, {y}))")
         }
         VeinKind::Granite => {
-            NoiseShape { sum: NoiseSum::Turbulence, ..SUM }.call(NOISE_AFTER_NUMBER, &point, place)
+            let sum = NoiseShape { sum: NoiseSum::Turbulence, ..SUM };
+            sum.call(NOISE_AFTER_NUMBER, &point, &width)
         }
     };
     format!("vec4(vec3({number}), 1.0)")

@@ -118,7 +118,7 @@ pub(super) fn veins(view: &View<'_>, kind: &str) -> Result<Texture> {
     };
     let (kind, octaves_alone, variation, colors) = match kind {
         "marble" => (VeinKind::Marble, 8, 0.2, Spread::Spline(MARBLE.map(Vec3::from_array).to_vec())),
-        "wood" => (VeinKind::Wood, 3, 0.25, map(&WOOD)),
+        "wood" => (VeinKind::Wood, 3, 0.8, map(&WOOD)),
         _ => (VeinKind::Granite, 6, 1.0, map(&GRANITE)),
     };
     let [gain, lacunarity] = fractal(view)?;
