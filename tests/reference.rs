@@ -9,8 +9,7 @@
 //!
 //! | reference | what it needs |
 //! |---|---|
-//! | `c_uv_quadrics` | a partial sphere, uv of a cylinder |
-//! | `d_checker` | planar, cylindrical and spherical mappings |
+//! | `c_uv_quadrics` | a partial sphere |
 //! | `g_bump`, `m_instances` | to be built |
 //! | `n_infinite_image` | an equal-area environment |
 //! | `q_meshes` | loop subdivision, bilinear patches |
@@ -103,7 +102,7 @@ macro_rules! scenes {
 }
 
 scenes! {
-    pbrt: a_cornell b_wrap e_noise f_marble_dots h_normalmap i_alpha j_thinlens k_softshadow l_materials n_infinite_const
+    pbrt: a_cornell b_wrap d_checker e_noise f_marble_dots h_normalmap i_alpha j_thinlens k_softshadow l_materials n_infinite_const
         o_lens_dgauss o_lens_wide p_equirect p_ortho r_hardlights;
     mitsuba: m_area_lights m_bitmap_wrap_filter m_bumpmap m_cornell_saturated m_dielectric m_mask m_thinlens;
 }

@@ -28,16 +28,15 @@ def checker(name, first, second):
 
 
 def cylinder(name, sides):
-    """Radius 1 about z, from z = 0 to 1, open, with smooth normals: `sides` quadrangles."""
-    lines = ["ply", "format ascii 1.0", f"element vertex {2 * sides}"]
-    lines += [f"property float {p}" for p in ("x", "y", "z", "nx", "ny", "nz")]
+    """Radius 1 about z, from z = 0 to 1, open, with smooth normals: `sides` quadrangles. u goes round from +x, v is z."""
+    lines = ["ply", "format ascii 1.0", f"element vertex {2 * (sides + 1)}"]
+    lines += [f"property float {p}" for p in ("x", "y", "z", "nx", "ny", "nz", "u", "v")]
     lines += [f"element face {sides}", "property list uchar int vertex_indices", "end_header"]
+    for i in range(sides + 1):
+        c, s = math.cos(2 * math.pi * (i % sides) / sides), math.sin(2 * math.pi * (i % sides) / sides)
+        lines += [f"{c:.8f} {s:.8f} {z} {c:.8f} {s:.8f} 0 {i / sides:.8f} {z}" for z in (0, 1)]
     for i in range(sides):
-        c, s = math.cos(2 * math.pi * i / sides), math.sin(2 * math.pi * i / sides)
-        lines += [f"{c:.8f} {s:.8f} {z} {c:.8f} {s:.8f} 0" for z in (0, 1)]
-    for i in range(sides):
-        j = (i + 1) % sides
-        lines.append(f"4 {2 * i} {2 * j} {2 * j + 1} {2 * i + 1}")
+        lines.append(f"4 {2 * i} {2 * i + 2} {2 * i + 3} {2 * i + 1}")
     (HERE / name).write_text("\n".join(lines) + "\n")
 
 
