@@ -35,11 +35,11 @@ fn gradient(table: &[[u32; 4]], hash: u32, d: &[f64], classic: bool) -> f64 {
     }
     let [a, b, c] = [hash & 1, hash & 2, hash & 4];
     match *d {
-        [x] => sign(a) * 0.25 * f64::from(1 + (hash >> 1 & 7)) * x,
+        [x] => sign(a) * 0.25 * f64::from(1 + ((hash >> 1) & 7)) * x,
         [x, y] if c == 0 => 0.6616 * (sign(a) * x + 2.0 * sign(b) * y),
         [x, y] => 0.6616 * (2.0 * sign(a) * x + sign(b) * y),
         [x, y, z, w] => {
-            let [p, q, r] = [[y, z, w], [x, z, w], [x, y, w], [x, y, z]][(hash >> 3 & 3) as usize];
+            let [p, q, r] = [[y, z, w], [x, z, w], [x, y, w], [x, y, z]][((hash >> 3) & 3) as usize];
             0.6514 * (sign(a) * p + sign(b) * q + sign(c) * r)
         }
         // pbrt's: 12 is (x, y), 13 is (−x, y), 14 is (y, −z) and 15 is (−y, −z)
@@ -65,7 +65,7 @@ pub fn perlin(table: &[[u32; 4]], p: &[f64], variant: PerlinVariant) -> f64 {
             let far = corner >> k & 1;
             let inside = x - x.floor();
             let index = (x.floor() as i64 + i64::from(far)).rem_euclid(256) as u32;
-            hash = table[(hash + index & 255) as usize][0];
+            hash = table[((hash + index) & 255) as usize][0];
             let t = inside;
             let fade =
                 if classic { t * t * (3.0 - 2.0 * t) } else { t * t * t * (t * (t * 6.0 - 15.0) + 10.0) };
