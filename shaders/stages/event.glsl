@@ -23,14 +23,15 @@ const float SAMPLE_SPREAD = 0.25;
 // Cosine below which a slanted pixel is not made longer.
 const float LEAST_SLANT = 0.05;
 
-// What a texture is told of a surface: with the width of the pixel there, which grows where the ray is slanted.
+// What a texture is told of a surface: with the width of the pixel there. Where the ray is slanted the pixel is longer than wide:
+// the width is the side of a square of its area.
 TextureContext context_of(Surface surface, WaveRay ray, vec3 facing_normal)
 {
     TextureContext context = context_at(surface.position, surface.uv, facing_normal);
     context.object_position = surface.object_position;
 #ifdef HAS_FOOTPRINT
     float width = ray.width + ray.spread * distance(ray.origin, surface.position);
-    context.footprint = width / max(abs(dot(ray.direction, surface.geometric)), LEAST_SLANT);
+    context.footprint = width * inversesqrt(max(abs(dot(ray.direction, surface.geometric)), LEAST_SLANT));
     context.object_footprint = context.footprint * surface.object_rate;
     context.uv_footprint = context.footprint * surface.uv_rate;
 #endif

@@ -13,7 +13,7 @@ const OCTAVES: i32 = 5;
 fn wall(pixel: f32, filter_width: f32) -> Scene {
     let mut s = scene(SIDE, SIDE, 1);
     s.render.sampler = Sampler::Center;
-    s.camera.fov = 4.0;
+    s.camera.projection = Projection::pinhole(4.0);
     let distance = pixel * SIDE as f32 / (2.0 * 2.0_f32.to_radians().tan());
     let noise = Noise {
         perlin: Perlin { dimensions: 2, ..Perlin::default() },
