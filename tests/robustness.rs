@@ -277,6 +277,13 @@ fn materials_at_the_ends_of_their_ranges() {
         eta: Value::Constant(Vec3::new(0.2, 1.0, 5.0)),
         k: Value::Constant(Vec3::new(0.0, 4.0, 20.0)),
     };
+    let layered = |ior, transmission, alpha, change: fn(&mut Principled)| {
+        let (ior, transmission) = (Value::Constant(ior), Value::Constant(transmission));
+        let mut p =
+            Principled { ior, transmission, roughness: Roughness::alpha(alpha), ..Principled::default() };
+        change(&mut p);
+        Surface::Principled(Box::new(p))
+    };
     let surfaces = [
         metal(1.0, 1.0, Fresnel::Exact),
         metal(1.0, 0.001, Fresnel::Exact),
@@ -291,6 +298,13 @@ fn materials_at_the_ends_of_their_ranges() {
         Surface::Phong { diffuse: grey(0.0), specular: grey(1.0), exponent: Value::Constant(1e6) },
         Surface::Phong { diffuse: grey(0.0), specular: grey(0.0), exponent: Value::Constant(0.0) },
         Surface::Diffuse { color: grey(1.0) },
+        layered(1.0, 1.0, 0.0, |_| {}),
+        layered(100.0, 1.0, 0.0, |p| p.thin = true),
+        layered(1.5, 0.5, 1.0, |p| p.specular = Value::Constant(0.0)),
+        layered(1.5, 0.0, 0.0, |p| (p.base_color, p.metallic) = (grey(0.0), Value::Constant(1.0))),
+        layered(1.5, 0.0, 0.5, |p| (p.base_color, p.specular) = (grey(0.0), Value::Constant(0.0))),
+        layered(2.0, 0.0, 0.2, |p| (p.specular_color, p.clearcoat) = (grey(1e30), Value::Constant(1.0))),
+        layered(1.5, 1.0, 1.0, |p| (p.sheen_color, p.sheen_roughness) = (grey(1.0), Value::Constant(0.0))),
     ];
     for (i, surface) in surfaces.into_iter().enumerate() {
         let mut s = scene(8, 8, 1024);
