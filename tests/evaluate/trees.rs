@@ -273,7 +273,8 @@ fn constants_are_folded_and_equal_trees_are_one() {
     let prepared = prepare::prepare(&scene).unwrap();
     // 0.5, 1, and a pattern with two inputs
     assert_eq!(prepared.textures.len(), 2 + 4 + 2);
-    assert_eq!(prepared.texture_glsl.matches("vec4 texture_").count(), 2 + 1, "{}", prepared.texture_glsl);
+    // And a function for each of the three uses
+    assert_eq!(prepared.texture_glsl.matches("vec4 texture_").count(), 2 + 3, "{}", prepared.texture_glsl);
     assert!(!prepared.texture_glsl.contains("texture_add("));
 }
 
