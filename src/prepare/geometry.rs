@@ -5,7 +5,7 @@
 
 use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
-use super::triangles::{Extras, mirrors, push_triangles, quad_mesh};
+use super::triangles::{Extras, mirrors, push_triangles};
 use super::wide::Leaves;
 use super::{Prepared, rows};
 use crate::layout::{
@@ -76,7 +76,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
             ShapeKind::Sphere { .. } => ellipsoid_bounds(&world_from_object),
             ShapeKind::Disk { .. } => disk_bounds(&world_from_object),
             ShapeKind::Quad { .. } => {
-                let (first, mesh) = (soup.len(), quad_mesh());
+                let (first, mesh) = (soup.len(), Mesh::square());
                 let extras = Extras::of(scene, &mesh, [shape.material]);
                 let face = push_triangles(&mesh, &world_from_object, Some(instance), &extras, out, &mut soup);
                 out.instances[instance as usize].first_face = face;
@@ -298,26 +298,7 @@ fn check_size(name: &str, map: &Affine3A) -> Result<()> {
 
 /// From the unit sphere, disk or square of the kernels to the world.
 pub(super) fn shape_frame(shape: &Shape) -> Affine3A {
-    let around = |z: Vec3, along: Vec3, scale: f32, at: Vec3| {
-        let z = z.normalize();
-        let x = along.reject_from_normalized(z).normalize();
-        let m = Mat3A::from_cols((x * scale).into(), (z.cross(x) * scale).into(), (z * scale).into());
-        Affine3A { matrix3: m, translation: at.into() }
-    };
-    let object = match shape.kind {
-        ShapeKind::Sphere { center, radius, pole, meridian } => around(pole, meridian, radius, center),
-        ShapeKind::Disk { center, normal, radius, meridian } => around(normal, meridian, radius, center),
-        ShapeKind::Quad { origin, edge_u, edge_v } => Affine3A {
-            matrix3: Mat3A::from_cols(edge_u.into(), edge_v.into(), quad_normal(edge_u, edge_v).into()),
-            translation: origin.into(),
-        },
-    };
-    shape.world_from_object * object
-}
-
-/// Unit normal of a quad, however long its edges are.
-fn quad_normal(edge_u: Vec3, edge_v: Vec3) -> Vec3 {
-    edge_u.as_dvec3().cross(edge_v.as_dvec3()).normalize().as_vec3()
+    shape.world_from_object * shape.kind.frame()
 }
 
 fn world_from_object(instance: &Instance) -> Affine3A {

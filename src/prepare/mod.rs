@@ -7,6 +7,7 @@ mod atlas;
 mod bounds;
 pub mod bvh;
 mod details;
+mod displace;
 mod environment;
 mod geometry;
 pub mod lens;
@@ -21,6 +22,7 @@ mod variant;
 mod wide;
 
 pub use bounds::Bounds;
+pub use displace::{displace, displacing};
 pub(crate) use environment::rows as environment_rows;
 pub use textures::{PreparedTextures, prepare_textures};
 pub use variant::{Stage, defines, stack_size};

@@ -120,14 +120,3 @@ pub(super) fn part_materials(mesh: &Mesh) -> Vec<Option<Handle<Material>>> {
 pub(super) fn mirrors(map: &Affine3A) -> bool {
     map.as_daffine3().matrix3.determinant() < 0.0
 }
-
-/// The unit square as two triangles: uv = position.
-pub(super) fn quad_mesh() -> Mesh {
-    let corners = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
-    Mesh {
-        positions: corners.iter().map(|c| c.extend(0.0)).collect(),
-        uvs: corners.to_vec(),
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        ..Mesh::default()
-    }
-}

@@ -4,7 +4,7 @@ use super::kernels::key;
 use super::threads_of;
 use crate::gpu::{Bindings, Buffer, Command, Gpu, Pipeline, Place};
 use crate::layout::{Backend, Frame, Record as _, TexturePoint, WORD_BYTES, WORKGROUP};
-use crate::prepare::{Prepared, Stage, prepare_textures};
+use crate::prepare::{self, Prepared, Stage, prepare_textures};
 use crate::scene::{Handle, Scene, Texture};
 use crate::shader::Compiler;
 use crate::{Error, Result};
@@ -109,4 +109,23 @@ impl Evaluator {
         ])?;
         self.host.read(bytes, |words| values.extend_from_slice(bytemuck::cast_slice(words)))
     }
+}
+
+/// The scene with its displaced meshes, cut and moved; none when it has no such.
+///
+/// # Errors
+///
+/// As [`prepare::displace`] and [`Evaluator::new`].
+pub fn displaced(
+    gpu: &Arc<Gpu>,
+    compiler: &mut Compiler,
+    scene: &Scene,
+    backend: Backend,
+) -> Result<Option<Scene>> {
+    let asked = prepare::displacing(scene);
+    if asked.is_empty() {
+        return Ok(None);
+    }
+    let evaluator = Evaluator::new(gpu.clone(), compiler, scene, &asked, backend)?;
+    prepare::displace(scene, &mut |texture, points| evaluator.values(texture, points)).map(Some)
 }

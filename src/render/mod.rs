@@ -9,7 +9,7 @@ mod resident;
 mod slicing;
 mod wave;
 
-pub use evaluate::Evaluator;
+pub use evaluate::{Evaluator, displaced};
 pub use kernels::{Kernels, key};
 pub use resident::Resident;
 pub use slicing::Slicing;
@@ -132,6 +132,8 @@ impl Renderer {
     ///
     /// As [`prepare::prepare`], [`Kernels::new`] and [`Self::new`].
     pub fn open(gpu: Arc<Gpu>, compiler: &mut Compiler, scene: &Scene, options: Options) -> Result<Self> {
+        let displaced = displaced(&gpu, compiler, scene, options.backend)?;
+        let scene = displaced.as_ref().unwrap_or(scene);
         let mut prepared = prepare::prepare(scene)?;
         let kernels = Kernels::new(&gpu, compiler, scene, &prepared, options.backend)?;
         Self::new(gpu, kernels, scene, &mut prepared, options.slicing)

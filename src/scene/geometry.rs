@@ -1,7 +1,7 @@
 //! Meshes, analytic shapes and their places in the world.
 
-use super::{Handle, Material};
-use glam::{Affine3A, Vec2, Vec3};
+use super::{Displacement, Handle, Material};
+use glam::{Affine3A, Mat3A, Vec2, Vec3};
 use std::ops::Range;
 
 /// A run of triangles of a mesh that share a material.
@@ -28,6 +28,10 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// Parts that cover `triangles` without overlap, in order.
     pub parts: Vec<MeshPart>,
+    /// How it is displaced before it is rendered.
+    pub displacement: Option<Displacement>,
+    /// Its vertices are on the unit sphere about the origin, and so are those that displacement adds.
+    pub round: bool,
 }
 
 /// What a [`Shape`] is, in the object space of its transform.
@@ -65,6 +69,79 @@ pub enum ShapeKind {
         /// Edge along v.
         edge_v: Vec3,
     },
+}
+
+impl ShapeKind {
+    /// From the unit sphere about the origin with its pole along +z, the unit disk in z = 0, or the unit square from the origin along
+    /// x and y, to the shape.
+    pub fn frame(&self) -> Affine3A {
+        let around = |z: Vec3, along: Vec3, scale: f32, at: Vec3| {
+            let z = z.normalize();
+            let x = along.reject_from_normalized(z).normalize();
+            let m = Mat3A::from_cols((x * scale).into(), (z.cross(x) * scale).into(), (z * scale).into());
+            Affine3A { matrix3: m, translation: at.into() }
+        };
+        match *self {
+            Self::Sphere { center, radius, pole, meridian } => around(pole, meridian, radius, center),
+            Self::Disk { center, normal, radius, meridian } => around(normal, meridian, radius, center),
+            Self::Quad { origin, edge_u, edge_v } => {
+                // However long its edges are
+                let normal = edge_u.as_dvec3().cross(edge_v.as_dvec3()).normalize().as_vec3();
+                let matrix3 = Mat3A::from_cols(edge_u.into(), edge_v.into(), normal.into());
+                Affine3A { matrix3, translation: origin.into() }
+            }
+        }
+    }
+}
+
+impl Mesh {
+    /// The unit square from the origin along x and y, as two triangles: uv = position.
+    pub fn square() -> Self {
+        let corners = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+        Self {
+            positions: corners.iter().map(|c| c.extend(0.0)).collect(),
+            uvs: corners.to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..Self::default()
+        }
+    }
+
+    /// The unit sphere about the origin, coarse, to be cut: longitude about +z from +x and latitude are its uv.
+    pub fn unit_sphere() -> Self {
+        const COLUMNS: u32 = 8;
+        const ROWS: u32 = 4;
+        let mut mesh = Self { round: true, ..Self::default() };
+        for row in 0..=ROWS {
+            for column in 0..=COLUMNS {
+                // A pole has a vertex for each column, in its middle
+                let pole = row == 0 || row == ROWS;
+                let turn = (column as f32 + if pole { 0.5 } else { 0.0 }) / COLUMNS as f32;
+                let v = row as f32 / ROWS as f32;
+                let (sin, cos) = (std::f32::consts::PI * (v - 0.5)).sin_cos();
+                // The last column is where the first is
+                let (y, x) = (std::f32::consts::TAU * (column % COLUMNS) as f32 / COLUMNS as f32).sin_cos();
+                let around = if pole { 0.0 } else { cos };
+                mesh.positions.push(Vec3::new(around * x, around * y, if pole { sin.signum() } else { sin }));
+                mesh.uvs.push(Vec2::new(turn, v));
+            }
+        }
+        mesh.normals.clone_from(&mesh.positions);
+        let at = |row: u32, column: u32| row * (COLUMNS + 1) + column;
+        for row in 0..ROWS {
+            for column in 0..COLUMNS {
+                let [a, b] = [at(row, column), at(row, column + 1)];
+                let [c, d] = [at(row + 1, column), at(row + 1, column + 1)];
+                // Next to a pole one of both has no area
+                if row > 0 {
+                    mesh.triangles.push([a, b, if row + 1 < ROWS { d } else { c }]);
+                }
+                if row + 1 < ROWS {
+                    mesh.triangles.push([a, d, c]);
+                }
+            }
+        }
+        mesh
+    }
 }
 
 /// A sphere, disk or quad in the world.

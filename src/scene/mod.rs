@@ -5,6 +5,7 @@
 
 mod camera;
 mod detail;
+mod displacement;
 mod film;
 mod geometry;
 mod light;
@@ -17,6 +18,7 @@ pub use camera::{
     Opening, Paraxial, Perspective, Projection, Pupil, Stop, half_height,
 };
 pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents};
+pub use displacement::{Displacement, DisplacementDirection, EdgeLimit};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub use light::{Environment, Light};

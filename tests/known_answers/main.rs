@@ -10,6 +10,7 @@
 mod common;
 
 mod camera;
+mod displacement;
 mod emission;
 mod environment;
 mod far_noise;

@@ -12,12 +12,37 @@ fn relief() {
         ("[material.m]\nkind = 'diffuse'\nbump = { height = 2 }", "3:8: `texture` is missing in `bump`"),
         (
             "[material.m]\nkind = 'diffuse'\nbump = { texture = 'stone' }",
-            "3:20: there is no texture `stone`; there are no textures",
+            "3:20: no texture is named `stone`; there are no textures",
         ),
         (
             "[material.m]\nkind = 'diffuse'\nnormal_map = { texture = 't', green = 'left' }\n[texture.t]\nkind = 'constant'\ncolor = 1",
             "3:39: `green` is \"left\", must be one of \"up\", \"down\"",
         ),
+    ]);
+}
+
+#[test]
+fn displacement() {
+    let sphere = |rest: &str| {
+        format!(
+            "[material.m]\nkind = 'diffuse'\n[[shape]]\nkind = 'sphere'\nradius = 1\nmaterial = 'm'\n{rest}"
+        )
+    };
+    let disk = "[[shape]]\nkind = 'disk'\nradius = 1\nmaterial = 'm'\ndisplacement = {}";
+    let texture = "\n[texture.t]\nkind = 'constant'\ncolor = 1";
+    check(&[
+        (&sphere("displacement = {}"), "7:16: `texture` is missing in `displacement`"),
+        (
+            &sphere(&format!("displacement = {{ texture = 't', edge_length = 0 }}{texture}")),
+            "7:47: `edge_length` is 0, must be above 0",
+        ),
+        (
+            &sphere(&format!(
+                "displacement = {{ texture = 't', edge_length = 1, edge_pixels = 1 }}{texture}"
+            )),
+            "7:64: `displacement` has both `edge_length` and `edge_pixels`; keep one of them",
+        ),
+        (disk, "5:1: unknown key `displacement` in disk shape 1; it is a key of sphere, quad"),
     ]);
 }
 

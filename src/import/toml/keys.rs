@@ -226,12 +226,16 @@ pub(super) const BUMP: &[&str] = &["texture", "height", "derivative", "curvature
 /// Keys of `normal_map`.
 pub(super) const NORMAL_MAP: &[&str] = &["texture", "green", "strength", "tangents"];
 
-pub(super) const MESH: &[&str] =
-    &["file", "materials", "positions", "triangles", "polygons", "normals", "uvs", "smooth"];
+/// Keys of `displacement`.
+pub(super) const DISPLACEMENT: &[&str] =
+    &["texture", "height", "offset", "direction", "edge_length", "edge_pixels", "max_triangles"];
 
-const SPHERE: &[&str] = &["center", "radius", "pole", "meridian"];
+pub(super) const MESH: &[&str] =
+    &["displacement", "file", "materials", "positions", "triangles", "polygons", "normals", "uvs", "smooth"];
+
+const SPHERE: &[&str] = &["center", "radius", "pole", "meridian", "displacement"];
 const DISK: &[&str] = &["center", "normal", "radius", "meridian"];
-const QUAD: &[&str] = &["origin", "center", "edge_u", "edge_v"];
+const QUAD: &[&str] = &["origin", "center", "edge_u", "edge_v", "displacement"];
 
 pub(super) const SHAPE: Kinds = Kinds {
     common: &["kind", "material", "transform"],

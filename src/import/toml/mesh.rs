@@ -33,6 +33,7 @@ impl Reader<'_> {
         if !smooth {
             mesh.normals = Vec::new();
         }
+        mesh.displacement = view.get("displacement").map(|item| self.displacement(item)).transpose()?;
         let handle = self.scene.meshes.add(&entry.key, mesh);
         self.meshes.add(&entry.key, entry.spot, handle);
         Ok(())

@@ -6,6 +6,7 @@
 mod assets;
 mod camera;
 mod detail;
+mod displacement;
 mod document;
 mod film;
 mod include;

@@ -23,7 +23,13 @@ impl Reader<'_> {
             material: self.materials.find(view.need("material")?)?,
             name,
         };
-        self.scene.shapes.push(shape);
+        match view.get("displacement") {
+            Some(item) => {
+                let displacement = self.displacement(item)?;
+                self.displaced_shape(shape, displacement);
+            }
+            None => self.scene.shapes.push(shape),
+        }
         Ok(())
     }
 

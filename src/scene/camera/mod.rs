@@ -211,6 +211,26 @@ impl Camera {
         }
     }
 
+    /// Width of a pixel at a point in the world, in scene units; `width` and `height` are those of the picture in pixels.
+    pub fn pixel_width(&self, point: Vec3, width: u32, height: u32) -> f32 {
+        let (rows, aspect) = (height as f32, width as f32 / height as f32);
+        let distance = self.position.distance(point);
+        match &self.projection {
+            Projection::Perspective(view) => distance * 2.0 * view.tan_half_vertical_fov(aspect) / rows,
+            Projection::Orthographic { size, axis } => half_height(*axis, *size, aspect) / rows,
+            Projection::Equirectangular => distance * std::f32::consts::PI / rows,
+            Projection::Fisheye { fov, axis, .. } => {
+                distance * half_height(*axis, fov.to_radians(), aspect) / rows
+            }
+            Projection::Lens(lens) => {
+                let sensor_height = lens.sensor_diagonal * lens.unit / (1.0 + aspect * aspect).sqrt();
+                let focal_length =
+                    lens.paraxial().map_or(sensor_height, |paraxial| paraxial.focal_length as f32);
+                distance * sensor_height / (focal_length * rows)
+            }
+        }
+    }
+
     /// The shape of the opening of the lens, if it has one.
     pub fn opening(&self) -> Option<Opening> {
         self.lens_system().map(|lens| lens.opening).or(self.thin_lens().map(|lens| lens.opening))

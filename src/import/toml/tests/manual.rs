@@ -14,6 +14,7 @@ fn every_key() -> BTreeSet<(&'static str, &'static str)> {
         ("[[instance]]", keys::INSTANCE),
         ("transform", keys::STEP),
         ("bump", keys::BUMP),
+        ("displacement", keys::DISPLACEMENT),
         ("normal_map", keys::NORMAL_MAP),
         ("[environment]", keys::ENVIRONMENT),
     ];

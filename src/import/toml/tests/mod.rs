@@ -48,6 +48,7 @@ impl Assets for Memory {
             uvs: Vec::new(),
             triangles: vec![[0, 1, 2]; 2],
             parts: vec![part("steel", 0), part("paint", 1)],
+            ..Mesh::default()
         })
     }
 
@@ -315,8 +316,21 @@ fn meshes_and_instances_take_every_key() {
     assert!(car.normals.is_empty());
     assert_eq!(car.parts[0].material, material("glass"), "by `materials`");
     assert_eq!(car.parts[1].material, material("paint"), "by its own name");
-    assert_eq!(scene.instances[0].material, material("chalk").unwrap());
-    assert_eq!(scene.instances[1].material, material("glass").unwrap(), "any will do");
+    let given: Vec<_> = scene.instances.iter().map(|instance| Some(instance.material)).collect();
+    // The first is a displaced sphere; of the materials of parts any will do
+    assert_eq!(given, ["gold", "chalk", "glass", "steel", "gold"].map(material));
+    let texture = scene.textures.iter().find(|found| found.1 == "squares").unwrap().0;
+    let moved = Displacement {
+        texture,
+        height: 0.5,
+        offset: 0.25,
+        direction: DisplacementDirection::Tangent,
+        edge: EdgeLimit::Length(0.125),
+        most_triangles: 1000,
+    };
+    let sphere = &scene.meshes[scene.instances[0].mesh];
+    assert!(sphere.round && sphere.displacement == Some(moved));
+    assert_eq!(mesh("moved").displacement.unwrap().edge, EdgeLimit::Pixels(3.0));
 }
 
 #[test]
