@@ -35,3 +35,4 @@ float world_reach(Instance i, float reach)
 
 // Normals go by the inverse transpose; not of unit length.
 vec3 world_normal(Instance i, vec3 n) { return i.object_row0.xyz * n.x + i.object_row1.xyz * n.y + i.object_row2.xyz * n.z; }
+vec3 object_normal(Instance i, vec3 n) { return i.world_row0.xyz * n.x + i.world_row1.xyz * n.y + i.world_row2.xyz * n.z; }

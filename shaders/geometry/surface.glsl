@@ -20,10 +20,12 @@ Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 dire
     s = triangle_surface(triangle, place, place.kind != INSTANCE_SOUP, origin, direction);
 #else
     uint owner = triangle_fetch(triangle).instance;
-    Surface s = triangle_surface(triangle, instance_fetch(owner), false, origin, direction);
+    Instance place = instance_fetch(owner);
+    Surface s = triangle_surface(triangle, place, false, origin, direction);
 #endif
     s.instance = owner;
     s.base_normal = s.normal;
+    s.object_normal = object_normal(place, s.normal);
     s.softened = false;
     return s;
 }

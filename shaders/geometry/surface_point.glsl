@@ -6,6 +6,7 @@ struct Surface {
     vec3 object_position; // object space of its instance
     vec3 geometric;       // unit normal of the geometry, outward
     vec3 normal;          // unit shading normal, on the side of `geometric`
+    vec3 object_normal;   // the same in object space, not of unit length
     vec3 base_normal;     // the same without bumps and normal maps
     bool softened;        // the light at the edge of bumps is softened
     vec3 dpdu;            // ∂p/∂u in world space, not of unit length; 0 where u has no direction

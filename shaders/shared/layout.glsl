@@ -102,9 +102,12 @@ const uint WRAP_MIRROR = 2u; // Wrap mode: the picture and its mirror image.
 const uint WRAP_BLACK = 3u; // Wrap mode: zero.
 const uint WRAP_MASK = 3u; // Bits of the flags of an image texture: its wrap mode along u, from bit 0.
 const uint WRAP_V_SHIFT = 2u; // Position of the wrap mode along v in the flags of an image texture.
+const uint WRAP_W_SHIFT = 6u; // Position of the wrap mode across the slices in the flags of a stack.
 const uint FLAG_NEAREST = 16u; // Flag of an image texture: the nearest texel in place of bilinear filtering.
 const uint FLAG_INVERT = 32u; // Flag of an image texture: 1 less the colour.
-const uint CHANNEL_SHIFT = 8u; // Position of the channel in the flags of an image texture; nothing is above it.
+const uint CHANNEL_SHIFT = 8u; // Position of the channel in the flags of an image texture.
+const uint CHANNEL_MASK = 15u; // Bits of the channel in the flags of an image texture, moved down to bit 0.
+const uint LEVELS_SHIFT = 16u; // Position of the number of levels in the flags of an image texture; nothing is above it.
 const uint CHANNEL_RGB = 0u; // Channel: all as they are.
 const uint CHANNEL_R = 1u; // Channel: red in all.
 const uint CHANNEL_G = 2u; // Channel: green in all.
@@ -395,7 +398,7 @@ struct ImageTexture {
     vec2 uv_column1; // uv to picture, column 1
     vec2 uv_offset; // uv to picture, offset
     float scale; // factor on the value
-    uint flags; // FLAG_… bits, WRAP_… modes and CHANNEL_…
+    uint flags; // FLAG_… bits, WRAP_… modes, CHANNEL_…, and the number of levels where it is filtered trilinearly
 };
 const uint IMAGE_TEXTURE_WORDS = 3u;
 ImageTexture image_texture_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
@@ -409,6 +412,65 @@ ImageTexture image_texture_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
     r.uv_offset = uintBitsToFloat(uvec2(w2.x, w2.y));
     r.scale = uintBitsToFloat(w2.z);
     r.flags = w2.w;
+    return r;
+}
+
+struct ImageLevel {
+    uint base; // word of its first block of texels
+    uint pitch; // words from a row of blocks to the next
+    uvec2 size; // columns and rows of texels
+};
+const uint IMAGE_LEVEL_WORDS = 1u;
+ImageLevel image_level_unpack(uvec4 w0)
+{
+    ImageLevel r;
+    r.base = w0.x;
+    r.pitch = w0.y;
+    r.size = uvec2(w0.z, w0.w);
+    return r;
+}
+
+struct Stack {
+    uint base; // word of its first block of texels
+    uint pitch; // words from a row of blocks to the next
+    uint slice_words; // words from a slice to the next
+    uint flags; // as in ImageTexture
+    uvec3 size; // columns, rows and slices
+    float scale; // factor on the value
+};
+const uint STACK_WORDS = 2u;
+Stack stack_unpack(uvec4 w0, uvec4 w1)
+{
+    Stack r;
+    r.base = w0.x;
+    r.pitch = w0.y;
+    r.slice_words = w0.z;
+    r.flags = w0.w;
+    r.size = uvec3(w1.x, w1.y, w1.z);
+    r.scale = uintBitsToFloat(w1.w);
+    return r;
+}
+
+struct Mapping {
+    vec4 row0; // row 0 of mapping from space
+    vec4 row1; // row 1 of mapping from space
+    vec4 row2; // row 2 of mapping from space
+    float pole_u; // u on the axis
+    float seam_blend; // share of a turn over which the seam is faded
+    float sharpness; // exponent of triplanar weights
+    uint spare; // room
+};
+const uint MAPPING_WORDS = 4u;
+Mapping mapping_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
+{
+    Mapping r;
+    r.row0 = uintBitsToFloat(uvec4(w0.x, w0.y, w0.z, w0.w));
+    r.row1 = uintBitsToFloat(uvec4(w1.x, w1.y, w1.z, w1.w));
+    r.row2 = uintBitsToFloat(uvec4(w2.x, w2.y, w2.z, w2.w));
+    r.pole_u = uintBitsToFloat(w3.x);
+    r.seam_blend = uintBitsToFloat(w3.y);
+    r.sharpness = uintBitsToFloat(w3.z);
+    r.spare = w3.w;
     return r;
 }
 
@@ -434,8 +496,8 @@ struct TexturePoint {
     vec2 uv_footprint; // the widths in u and in v
     vec3 normal; // normal in the world
     float time; // time in the shutter interval, 0..1
+    vec3 object_normal; // normal in object space
     uint reference; // the texture
-    uvec3 spare; // room
 };
 const uint TEXTURE_POINT_WORDS = 5u;
 TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4)
@@ -449,8 +511,8 @@ TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 
     r.uv_footprint = uintBitsToFloat(uvec2(w2.z, w2.w));
     r.normal = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
     r.time = uintBitsToFloat(w3.w);
-    r.reference = w4.x;
-    r.spare = uvec3(w4.y, w4.z, w4.w);
+    r.object_normal = uintBitsToFloat(uvec3(w4.x, w4.y, w4.z));
+    r.reference = w4.w;
     return r;
 }
 

@@ -9,7 +9,7 @@ void main()
     if (i >= frame.point_count) return;
     uint w = i * TEXTURE_POINT_WORDS;
     TexturePoint p = texture_point_unpack(fetch_points(w), fetch_points(w + 1u), fetch_points(w + 2u), fetch_points(w + 3u), fetch_points(w + 4u));
-    TextureContext context = TextureContext(p.position, p.object_position, p.uv, p.normal, p.footprint, p.object_footprint,
-                                            p.uv_footprint, p.time);
+    TextureContext context = TextureContext(p.position, p.object_position, p.uv, p.normal, p.object_normal, p.footprint,
+                                            p.object_footprint, p.uv_footprint, p.time);
     store_values(i, floatBitsToUint(texture_evaluate(p.reference, context)));
 }

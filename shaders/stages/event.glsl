@@ -29,6 +29,7 @@ TextureContext context_of(Surface surface, WaveRay ray, vec3 facing_normal)
 {
     TextureContext context = context_at(surface.position, surface.uv, facing_normal);
     context.object_position = surface.object_position;
+    context.object_normal = surface.object_normal;
 #ifdef HAS_FOOTPRINT
     float width = ray.width + ray.spread * distance(ray.origin, surface.position);
     context.footprint = width * inversesqrt(max(abs(dot(ray.direction, surface.geometric)), LEAST_SLANT));

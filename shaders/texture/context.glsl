@@ -5,6 +5,7 @@ struct TextureContext {
     vec3 object_position;   // in the object space of the instance
     vec2 uv;                // of the surface, v upward
     vec3 normal;            // shading normal, world space
+    vec3 object_normal;     // shading normal on the outside, object space; not of unit length
     float footprint;        // width of the pixel on the surface, scene units; 0 = a point
     float object_footprint; // the same in units of object space
     vec2 uv_footprint;      // the same in u and in v
@@ -14,5 +15,5 @@ struct TextureContext {
 // A point without a size, where world and object space are one.
 TextureContext context_at(vec3 position, vec2 uv, vec3 normal)
 {
-    return TextureContext(position, position, uv, normal, 0.0, 0.0, vec2(0.0), 0.0);
+    return TextureContext(position, position, uv, normal, normal, 0.0, 0.0, vec2(0.0), 0.0);
 }

@@ -22,16 +22,22 @@ uint lane_of(uvec4 word, uint lane)
     return lane < 2u ? low : high;
 }
 
+vec4 halves_of(uvec4 word, uint x)
+{
+    uvec2 halves = (x & 1u) == 0u ? word.xy : word.zw;
+    return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
+}
+
 // The texel in column x and row y (row 0 on top), both in range; the generated code knows the TEXELS_… format.
-vec4 texel(ImageTexture image, uint format, uint x, uint y)
+// Levels of a pyramid above the picture itself are `coarse`: halves, where the picture is bytes.
+vec4 texel(ImageTexture image, uint format, bool coarse, uint x, uint y)
 {
     if (format == TEXELS_RGBA32F) return uintBitsToFloat(fetch_texels(image.base + y * image.pitch + x));
     if (format == TEXELS_RGBA16F) {
-        uvec4 word = fetch_texels(image.base + y * image.pitch + (x >> 1));
-        uvec2 halves = (x & 1u) == 0u ? word.xy : word.zw;
-        return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
+        return halves_of(fetch_texels(image.base + y * image.pitch + (x >> 1)), x);
     }
-    uvec4 word = fetch_texels(image.base + (y >> 1) * image.pitch + (x >> 1));
+    uvec4 word = fetch_texels(image.base + (y >> (coarse ? 0u : 1u)) * image.pitch + (x >> 1));
+    if (coarse) return halves_of(word, x);
     vec4 value = unpackUnorm4x8(lane_of(word, (x & 1u) + 2u * (y & 1u)));
     if (format == TEXELS_RGBA8_SRGB) value.rgb = srgb_decode(value.rgb);
     return value;
@@ -52,43 +58,59 @@ uint wrap_index(int i, int n, uint mode, inout bool outside)
     return uint(clamp(i, 0, n - 1));
 }
 
-vec4 wrapped_texel(ImageTexture image, uint format, ivec2 at)
+vec4 wrapped_texel(ImageTexture image, uint format, bool coarse, ivec2 at)
 {
     bool outside = false;
     uint x = wrap_index(at.x, int(image.size.x), image.flags & WRAP_MASK, outside);
     uint y = wrap_index(at.y, int(image.size.y), (image.flags >> WRAP_V_SHIFT) & WRAP_MASK, outside);
-    return outside ? vec4(0.0) : texel(image, format, x, y);
+    return outside ? vec4(0.0) : texel(image, format, coarse, x, y);
 }
 
-// The value of the picture at a uv: nearest, or bilinear with texel centres at (i + ½) / n, each of the four texels
-// wrapped by itself. The limit keeps the place of a wild uv within what an int holds.
-vec4 image_lookup(ImageTexture image, uint format, vec2 uv)
+// uv of the surface to that of the picture. The limit keeps the place of a wild uv within what an int holds.
+vec2 image_place(ImageTexture image, vec2 uv)
 {
-    vec2 st = clamp(image.uv_column0 * uv.x + image.uv_column1 * uv.y + image.uv_offset, -16384.0, 16384.0);
-    if ((image.flags & FLAG_NEAREST) != 0u) {
-        // Rows are counted from the top, but [0, 1) is inside: v = 0 is in the last row, v = 1 is not in the first
-        ivec2 at = ivec2(floor(st * vec2(image.size)));
-        return wrapped_texel(image, format, ivec2(at.x, int(image.size.y) - 1 - at.y));
-    }
+    return clamp(image.uv_column0 * uv.x + image.uv_column1 * uv.y + image.uv_offset, -16384.0, 16384.0);
+}
+
+// Texel centres are at (i + ½) / n, and each of the four texels is wrapped by itself.
+vec4 bilinear_lookup(ImageTexture image, uint format, bool coarse, vec2 st)
+{
     vec2 p = vec2(st.x, 1.0 - st.y) * vec2(image.size) - 0.5;
     vec2 corner = floor(p);
     vec2 f = p - corner;
     ivec2 i = ivec2(corner);
-    vec4 top = mix(wrapped_texel(image, format, i), wrapped_texel(image, format, i + ivec2(1, 0)), f.x);
-    vec4 bottom = mix(wrapped_texel(image, format, i + ivec2(0, 1)), wrapped_texel(image, format, i + ivec2(1, 1)), f.x);
+    vec4 top = mix(wrapped_texel(image, format, coarse, i), wrapped_texel(image, format, coarse, i + ivec2(1, 0)), f.x);
+    i.y += 1;
+    vec4 bottom = mix(wrapped_texel(image, format, coarse, i), wrapped_texel(image, format, coarse, i + ivec2(1, 0)), f.x);
     return mix(top, bottom, f.y);
 }
 
-// The texture whose record starts at word w: channel, inversion and factor applied. Alpha is kept.
-vec4 image_texture(uint w, uint format, TextureContext context)
+vec4 image_lookup(ImageTexture image, uint format, vec2 uv)
 {
-    ImageTexture image = image_texture_fetch(w);
-    vec4 value = image_lookup(image, format, context.uv);
-    uint channel = image.flags >> CHANNEL_SHIFT;
+    vec2 st = image_place(image, uv);
+    if ((image.flags & FLAG_NEAREST) != 0u) {
+        // Rows are counted from the top, but [0, 1) is inside: v = 0 is in the last row, v = 1 is not in the first
+        ivec2 at = ivec2(floor(st * vec2(image.size)));
+        return wrapped_texel(image, format, false, ivec2(at.x, int(image.size.y) - 1 - at.y));
+    }
+    return bilinear_lookup(image, format, false, st);
+}
+
+// Channel, inversion and factor of a texture. Alpha is kept.
+vec4 image_value(ImageTexture image, vec4 value)
+{
+    uint channel = (image.flags >> CHANNEL_SHIFT) & CHANNEL_MASK;
     if (channel == CHANNEL_R) value.rgb = value.rrr;
     if (channel == CHANNEL_G) value.rgb = value.ggg;
     if (channel == CHANNEL_B) value.rgb = value.bbb;
     if (channel == CHANNEL_A) value.rgb = value.aaa;
     if ((image.flags & FLAG_INVERT) != 0u) value.rgb = 1.0 - value.rgb;
     return vec4(value.rgb * image.scale, value.a);
+}
+
+// The texture whose record starts at word w.
+vec4 image_texture(uint w, uint format, TextureContext context)
+{
+    ImageTexture image = image_texture_fetch(w);
+    return image_value(image, image_lookup(image, format, context.uv));
 }

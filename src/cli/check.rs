@@ -5,8 +5,11 @@ use super::console::Console;
 use super::devices::bytes_text;
 use dapple::Result;
 use dapple::import::{Warning, read_scene};
-use dapple::prepare::{self, Prepared};
-use dapple::scene::Scene;
+use dapple::layout::Backend;
+use dapple::prepare::{self, Prepared, Stage};
+use dapple::render;
+use dapple::scene::{Scene, Texture};
+use dapple::shader::{CacheOptions, Compiler, Sources};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -44,12 +47,25 @@ pub fn run(args: &CheckArgs, console: &mut Console) -> Result<()> {
         warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
     }
     let prepared = prepare::prepare(&scene)?;
+    compile_own_textures(&scene, &prepared)?;
     let contents = Contents::of(&scene, &prepared, &warnings);
     if args.json {
         console.event(&contents);
     } else {
         console.result(&contents.words());
     }
+    Ok(())
+}
+
+/// Compiles the textures that are GLSL of the user's own, whose errors would else be found by the first render.
+fn compile_own_textures(scene: &Scene, prepared: &Prepared) -> Result<()> {
+    if !scene.textures.iter().any(|(_, _, texture)| matches!(texture, Texture::Glsl(_))) {
+        return Ok(());
+    }
+    let mut sources = Sources::embedded();
+    sources.set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str())?;
+    let key = render::key(scene, prepared, Stage::Evaluate, Backend::Storage);
+    Compiler::new(sources, CacheOptions::from_environment()).kernel(&key)?;
     Ok(())
 }
 

@@ -9,6 +9,7 @@ mod obj;
 mod ply;
 mod ply_header;
 mod toml;
+mod volume;
 
 pub use self::toml::{Assets, Warning, read_scene_with};
 pub use image::read_image;
@@ -16,6 +17,7 @@ pub use lens::{Spacing, read_lens};
 pub use mesh::read_mesh;
 pub use obj::read_obj;
 pub use ply::read_ply;
+pub use volume::read_volume;
 
 use crate::Result;
 use crate::scene::{Image, LensSystem, Mesh, Scene};

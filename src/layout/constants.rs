@@ -215,12 +215,18 @@ constants! {
     WRAP_MASK = 3;
     /// Position of the wrap mode along v in the flags of an image texture.
     WRAP_V_SHIFT = 2;
+    /// Position of the wrap mode across the slices in the flags of a stack.
+    WRAP_W_SHIFT = 6;
     /// Flag of an image texture: the nearest texel in place of bilinear filtering.
     FLAG_NEAREST = 16;
     /// Flag of an image texture: 1 less the colour.
     FLAG_INVERT = 32;
-    /// Position of the channel in the flags of an image texture; nothing is above it.
+    /// Position of the channel in the flags of an image texture.
     CHANNEL_SHIFT = 8;
+    /// Bits of the channel in the flags of an image texture, moved down to bit 0.
+    CHANNEL_MASK = 15;
+    /// Position of the number of levels in the flags of an image texture; nothing is above it.
+    LEVELS_SHIFT = 16;
     /// Channel: all as they are.
     CHANNEL_RGB = 0;
     /// Channel: red in all.

@@ -14,6 +14,7 @@ pub mod lens;
 mod lights;
 mod materials;
 mod medium;
+mod pyramid;
 mod tangents;
 mod textures;
 mod triangles;

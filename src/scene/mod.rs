@@ -24,10 +24,12 @@ pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub use light::{Environment, Light};
 pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Mix, Principled, Roughness, Surface};
 pub use store::{Handle, Store};
+pub use texture::glsl;
 pub use texture::{
-    Brick, Channel, ColorSpace, Coordinates, Dots, Gradient, Image, ImageTexture, Metric, Noise, NoiseSum,
-    PatternSpace, Perlin, PerlinVariant, Spread, TexelFilter, Texels, Texture, UvTransform, Value,
-    ValueNoise, VeinKind, Veins, Warp, WorleyFeature, Wrap,
+    Brick, Channel, ColorSpace, Coordinates, Dots, GlslTexture, Gradient, Image, ImageTexture, Mapping,
+    MappingKind, MappingSpace, Metric, Noise, NoiseSum, Parameter, PatternSpace, Perlin, PerlinVariant,
+    Spread, StackTexture, TexelFilter, Texels, Texture, UvTransform, Value, ValueNoise, VeinKind, Veins,
+    Warp, WorleyFeature, Wrap,
 };
 
 /// A whole scene. The handles in it index the [`Store`]s of the same scene.

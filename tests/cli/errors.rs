@@ -48,6 +48,28 @@ fn a_wrong_key_is_shown_in_its_line() {
 }
 
 #[test]
+fn glsl_of_ones_own_is_compiled_by_its_own_lines() {
+    let room = Room::new();
+    let texture = "\n[texture.own]\nkind = \"glsl\"\nfile = \"own.glsl\"\n";
+    room.write(
+        "scene.toml",
+        &(crate::SCENE.replace("color = 0.6", "color = { texture = \"own\" }") + texture),
+    );
+    room.write("part.glsl", "float part(float x)\n{\n    return x * missing;\n}\n");
+    let color = "vec4 color(TextureContext context) { return vec4(part(context.uv.x)); }\n";
+    room.write("own.glsl", &format!("// first\n#include \"part.glsl\"\n{color}"));
+    for command in ["render", "check"] {
+        let ran = room.run(&format!("{command} scene.toml")).code(2);
+        ran.err_has("error: part.glsl:3: 'missing': undeclared identifier");
+    }
+    room.write("part.glsl", "float part(float x) { return x; }\n");
+    room.write("own.glsl", &format!("// first\n#include \"part.glsl\"\n{}", color.replace("uv.x", "uvw")));
+    room.run("check scene.toml").code(2).err_has("error: own.glsl:3: ");
+    room.write("own.glsl", &format!("#include \"part.glsl\"\n{color}"));
+    room.run("check scene.toml").code(0);
+}
+
+#[test]
 fn a_missing_scene_and_wrong_settings_exit_with_2() {
     let room = Room::new();
     room.run("render nowhere.toml").code(2).err_has("error: nowhere.toml: ");

@@ -6,6 +6,7 @@ pub mod compare;
 pub mod directions;
 pub mod lights;
 pub mod patterns;
+pub mod placed;
 pub mod probe;
 pub mod random;
 pub mod references;

@@ -5,9 +5,13 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod mapping;
 mod noise;
 mod patterns;
+mod pyramid;
+mod stack;
 mod trees;
+mod user;
 
 use common::probe::{cache, sources};
 use common::render::{Build, gpu, scene};

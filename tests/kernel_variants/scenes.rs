@@ -1,6 +1,7 @@
 //! Scenes that together switch every feature on and off.
 
 use crate::common::patterns::{noise, patterns};
+use crate::common::placed::placed;
 use dapple::scene::*;
 use glam::{Affine3A, Mat3, Vec3};
 
@@ -62,7 +63,11 @@ fn texture(scene: &mut Scene, texels: Texels, color_space: ColorSpace) -> Handle
     let image = scene.images.add("image", Image { width: 2, height: 1, texels });
     let texture = ImageTexture {
         image,
-        filter: TexelFilter::Bilinear,
+        filter: if scene.textures.len().is_multiple_of(2) {
+            TexelFilter::Trilinear
+        } else {
+            TexelFilter::Bilinear
+        },
         wrap: [Wrap::Repeat, Wrap::Mirror],
         uv: UvTransform::default(),
         color_space,
@@ -239,8 +244,9 @@ fn trees() -> Scene {
         let sum = scene.textures.add("ramp", Texture::Ramp { value, stops, smooth: true });
         last = scene.textures.add("mixed", Texture::Mix { a, b: inverted, amount: Value::Texture(sum) });
     }
+    let placed = placed(&mut scene);
     let shade = Surface::Diffuse { color: Value::Texture(last) };
-    let lamp = material(&mut scene, shade, Some(Value::Texture(last)));
+    let lamp = material(&mut scene, shade, Some(placed));
     let (value, filter) = (Value::Texture(last), Value::Texture(last));
     let detail = &mut scene.materials[lamp].detail;
     detail.opacity = Opacity { value, cutoff: None, filter };

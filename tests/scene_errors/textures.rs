@@ -7,11 +7,11 @@ fn textures() {
     check(&[
         (
             "[texture.t]\nfile = 'a.png'",
-            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\"",
+            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"stack\", \"glsl\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"",
         ),
         (
             "[texture.t]\nkind = 'imag'",
-            "2:8: `kind` is \"imag\", must be one of \"image\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\"; did you mean \"image\"?",
+            "2:8: `kind` is \"imag\", must be one of \"image\", \"stack\", \"glsl\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"; did you mean \"image\"?",
         ),
         (
             "[texture.t]\nkind = 'invert'\nvalue = { texture = 'u' }\n[texture.u]\nkind = 'invert'\nvalue = { texture = 't' }",
@@ -53,7 +53,7 @@ fn textures() {
         ),
         (
             "[texture.t]\nkind = 'image'\nfile = 'a.png'\ngamma = 2",
-            "4:1: unknown key `gamma` in image texture `t`; its keys are `kind`, `file`, `filter`, `wrap`, `uv_scale`, `uv_rotate`, `uv_offset`, `color_space`, `channel`, `scale`, `invert`",
+            "4:1: unknown key `gamma` in image texture `t`; its keys are `kind`, `file`, `filter`, `wrap`, `uv_scale`, `uv_rotate`, `uv_offset`, `color_space`, `channel`, `scale`, `invert`, `mapping`, `mapping_space`, `mapping_transform`, `pole`, `meridian`, `pole_u`, `seam_blend`, `sharpness`",
         ),
     ]);
 }
@@ -103,4 +103,85 @@ fn patterns() {
             "5:11: `octaves` is of the noise that `by` replaces",
         ),
     ]);
+}
+
+#[test]
+fn mappings_and_stacks() {
+    check(&[
+        ("[texture.t]\nkind = 'mapped'\nvalue = 1", "1:1: `mapping` is missing in mapped texture `t`"),
+        (
+            "[texture.t]\nkind = 'mapped'\nvalue = 1\nmapping = 'cube'\npole = [0, 0, 1]",
+            "5:8: `pole` has no meaning for the mapping \"cube\"; remove it, or choose another `mapping`",
+        ),
+        (
+            "[texture.t]\nkind = 'mapped'\nvalue = 1\nseam_blend = 1.5",
+            "4:14: `seam_blend` is 1.5, must be from 0 to 1",
+        ),
+        (
+            "[texture.t]\nkind = 'stack'",
+            "1:1: stack texture `t` has neither `files` nor `file`; add one of them",
+        ),
+        ("[texture.t]\nkind = 'stack'\nfiles = 'a%d.png'", "1:1: `count` is missing in stack texture `t`"),
+        (
+            "[texture.t]\nkind = 'stack'\nfiles = 'a%d.png'\ncount = 5000",
+            "4:9: `count` is 5000, must be from 1 to 4096",
+        ),
+        (
+            "[texture.t]\nkind = 'stack'\nfiles = 'a.png'\ncount = 2",
+            "3:9: `files` is \"a.png\", which has no place for a number; write one %d, or %03d for three digits, in its place",
+        ),
+        (
+            "[texture.t]\nkind = 'stack'\nfiles = 'missing%d.png'\ncount = 2",
+            "3:9: there is no file missing0.png",
+        ),
+        (
+            "[texture.t]\nkind = 'stack'\nfiles = ['a.png']\ncount = 2",
+            "4:9: `count` has no meaning beside a list of files",
+        ),
+        (
+            "[texture.t]\nkind = 'stack'\nfiles = ['a.png', 'wide.png']",
+            "3:9: slice wide.png is 2 x 1, but a.png is 1 x 1; make all slices of one size",
+        ),
+        (
+            "[texture.t]\nkind = 'stack'\nfiles = []",
+            "3:9: `files` must be from 1 to 4096 files, found an empty list",
+        ),
+        (
+            "[texture.t]\nkind = 'stack'\nfiles = ['a.png']\nwrap = ['clamp', 'clamp']",
+            "4:8: `wrap` must be one word or three, found a list of 2",
+        ),
+    ]);
+}
+
+#[test]
+fn textures_of_ones_own() {
+    let glsl = |text: &str| format!("[texture.t]\nkind = 'glsl'\nsource = '''\n{text}'''");
+    let color = "vec4 color(TextureContext context) { return vec4(1.0); }\n";
+    let cases = [
+        (
+            "[texture.t]\nkind = 'glsl'".to_owned(),
+            "1:1: glsl texture `t` has neither `file` nor `source`; add one of them",
+        ),
+        (
+            glsl("float colour() { return 1.0; }"),
+            "3:10: the GLSL of glsl texture `t` has no function `vec4 color(TextureContext context)`; add it: it gives the value of the texture",
+        ),
+        (glsl(&format!("{color}#version 450")), "5: a texture must not have a line #version"),
+        (
+            glsl(&format!("\n{color}void f() {{ film[0] = 1u; }}")),
+            "6: `film` has no place in a texture, which only reads",
+        ),
+        (glsl(&format!("{color}float f() {{")), "5: `{` is not closed"),
+        (
+            glsl(color) + "\nparameters = { color = 1 }",
+            "6:16: `color` cannot be the name of a parameter; use small letters, digits and single `_`, and begin with a letter",
+        ),
+        (glsl(color) + "\nparameters = { a = true }", "6:20: `a` must be a colour, found a boolean"),
+        (glsl(color) + "\nmax = 0", "6:7: `max` is 0, must be above 0"),
+        (
+            "[texture.t]\nkind = 'glsl'\nfile = 'missing.glsl'".to_owned(),
+            "3:8: there is no file missing.glsl",
+        ),
+    ];
+    check(&cases.iter().map(|(text, message)| (text.as_str(), *message)).collect::<Vec<_>>());
 }

@@ -32,6 +32,14 @@ pub trait Assets {
         crate::import::read_lens(path, spacing)
     }
 
+    /// Reads a volume as slices of one size.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is no volume.
+    fn volume(&mut self, path: &Path) -> Result<Vec<Image>> {
+        crate::import::read_volume(path)
+    }
+
     /// Whether the file is there, so that a wrong name is reported at its place in the scene.
     fn exists(&mut self, path: &Path) -> bool {
         path.exists()

@@ -119,6 +119,19 @@ impl Sources {
         Place { file: source.path.clone(), line, column }
     }
 
+    /// Where the text of a string begins: in three quotes a line end at its beginning is not a part of it.
+    pub fn text_place(&self, spot: Spot) -> Place {
+        let mut place = self.place(spot);
+        let text = self.sources.get(spot.source as usize).and_then(|source| source.text.as_deref());
+        let literal = text.and_then(|text| text.get(spot.offset as usize..)).unwrap_or("");
+        let starts =
+            |quotes| literal.strip_prefix(quotes).is_some_and(|text: &str| text.starts_with(['\n', '\r']));
+        if starts("\"\"\"") || starts("'''") {
+            place.line += 1;
+        }
+        place
+    }
+
     /// A scene error at a spot.
     pub fn error(&self, spot: Spot, message: impl Into<String>) -> Error {
         self.locate(spot, Error::scene(message))

@@ -99,6 +99,51 @@ const IMAGE: &[&str] = &[
     "channel",
     "scale",
     "invert",
+    "mapping",
+    "mapping_space",
+    "mapping_transform",
+    "pole",
+    "meridian",
+    "pole_u",
+    "seam_blend",
+    "sharpness",
+];
+const STACK: &[&str] = &[
+    "file",
+    "files",
+    "first",
+    "count",
+    "axis",
+    "filter",
+    "wrap",
+    "space",
+    "transform",
+    "color_space",
+    "channel",
+    "scale",
+    "invert",
+];
+const MAPPED: &[&str] = &[
+    "value",
+    "mapping",
+    "mapping_space",
+    "mapping_transform",
+    "pole",
+    "meridian",
+    "pole_u",
+    "seam_blend",
+    "sharpness",
+];
+/// Keys that place any texture that is looked up by u and v.
+pub(super) const MAPPING: &[&str] = &[
+    "mapping",
+    "mapping_space",
+    "mapping_transform",
+    "pole",
+    "meridian",
+    "pole_u",
+    "seam_blend",
+    "sharpness",
 ];
 const NOISE: &[&str] = &[
     "low",
@@ -150,6 +195,8 @@ pub(super) const TEXTURE: Kinds = Kinds {
     common: &["kind"],
     kinds: &[
         ("image", IMAGE),
+        ("stack", STACK),
+        ("glsl", &["file", "source", "parameters", "max"]),
         ("constant", &["color"]),
         ("checker", &["even", "odd", "dimensions", "space", "transform", "filter_width"]),
         ("noise", NOISE),
@@ -173,6 +220,7 @@ pub(super) const TEXTURE: Kinds = Kinds {
         ("scale", &["value", "factor"]),
         ("invert", &["value"]),
         ("warp", WARP),
+        ("mapped", MAPPED),
     ],
 };
 
@@ -272,6 +320,7 @@ pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
             &["blades", "aperture_image"],
         ],
     ),
+    ("texture", &[&["file", "files", "source"]]),
     ("environment", &[&["color", "texture"], &["rotate", "transform"]]),
     ("material", &[&["roughness", "alpha"], &["fresnel", "eta"], &["fresnel", "k"], &["reflectance", "eta"]]),
     ("shape", &[&["origin", "center"]]),

@@ -79,7 +79,7 @@ pub(super) fn geometry(view: &View<'_>, kind: &str) -> Result<ShapeKind> {
 }
 
 /// An axis (default +y) and a meridian across it (default +x, or +y when the axis is along x), both unit vectors.
-fn axes(view: &View<'_>, key: &str) -> Result<[Vec3; 2]> {
+pub(super) fn axes(view: &View<'_>, key: &str) -> Result<[Vec3; 2]> {
     let axis = view.get(key).map_or(Ok(Vec3::Y), |item| item.direction())?.as_dvec3();
     let across = |v: Vec3| {
         let v = v.as_dvec3();

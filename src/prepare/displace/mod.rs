@@ -150,6 +150,7 @@ fn point(refined: &Refined, vertex: &Vertex, directions: &[Vec3], world: &Affine
         object_position: position.to_array(),
         uv: vertex.uv.to_array(),
         normal: normal.normalize_or_zero().to_array(),
+        object_normal: directions[vertex.place as usize].to_array(),
         ..TexturePoint::default()
     }
 }

@@ -1,11 +1,11 @@
 //! A texture tree, node by node: shapes and records.
 
-use super::image::{brightness, record};
+use super::image::{brightness, levels, record};
 use super::range::Range;
 use super::shape::{Input, Shape};
 use crate::layout::TextureInput;
-use crate::prepare::atlas::{Atlas, Place};
-use crate::scene::{Handle, Scene, Texture, Value};
+use crate::prepare::atlas::{Atlas, Place, StackPlace};
+use crate::scene::{GlslTexture, Handle, Scene, Texture, Value};
 use glam::Vec3;
 use std::collections::{BTreeMap, HashMap};
 
@@ -22,6 +22,8 @@ pub(super) struct Builder<'a> {
     pub scene: &'a Scene,
     pub atlas: Atlas,
     pub places: BTreeMap<Handle<Texture>, Place>,
+    pub users: Vec<&'a GlslTexture>,
+    pub stacks: BTreeMap<Handle<Texture>, StackPlace>,
     pub shapes: Vec<Shape>,
     pub words: Vec<[u32; 4]>,
     /// Records by shape and words: equal trees are one.
@@ -39,7 +41,7 @@ impl Words {
     }
 }
 
-impl Builder<'_> {
+impl<'a> Builder<'a> {
     /// The node of a texture. Trees are known to be no deeper than [`Texture::DEEPEST`].
     pub(super) fn node(&mut self, handle: Handle<Texture>) -> Node {
         if let Some(node) = self.done[handle.index()] {
@@ -59,8 +61,13 @@ impl Builder<'_> {
                 let image = &scene.images[texture.image];
                 let mut words = Words::default();
                 words.push(record(texture, image, self.atlas.address(place)));
-                self.keep(Shape::Image(place.format), words, None, brightness(texture, image))
+                let levels = levels(texture, image, &self.atlas, place);
+                let shape = Shape::Image(place.format, !levels.is_empty());
+                levels.into_iter().for_each(|level| words.push(level));
+                self.keep(shape, words, None, brightness(texture, image))
             }
+            Texture::Glsl(texture) => self.user(texture),
+            Texture::Stack(stack) => self.stack(handle, stack),
             Texture::Checker { dimensions, even, odd, space } => {
                 let shape = |place, inputs| Shape::Checker(place, *dimensions, inputs);
                 self.between(space, [even, odd], 0.5, shape)
@@ -88,6 +95,7 @@ impl Builder<'_> {
             Texture::Scale { value, factor } => self.scale(value, *factor),
             Texture::Invert { value } => self.invert(value),
             Texture::Warp(warp) => self.warp(warp),
+            Texture::Mapped { value, mapping } => self.mapped(value, mapping),
         }
     }
 

@@ -1,8 +1,11 @@
 //! The generated file `generated/textures.glsl`: a function for each shape of texture tree that a scene has.
 
 use super::shape::{Input, NoiseShape, Place, Shape};
+use super::user;
 use crate::layout::{NodeNumber, NoiseSum as NoiseRecord, Pattern, Ramp, Record as _, TextureInput, Wall};
-use crate::scene::{Coordinates, Gradient, Metric, NoiseSum, Perlin, PerlinVariant, VeinKind, WorleyFeature};
+use crate::scene::{
+    Coordinates, GlslTexture, Gradient, Metric, NoiseSum, Perlin, PerlinVariant, VeinKind, WorleyFeature,
+};
 use std::fmt::Write as _;
 
 /// Word of the record of a noise in that of a pattern that has a number.
@@ -42,7 +45,14 @@ impl Shape {
             (0..inputs.len()).map(one).collect::<Vec<_>>().join(", ")
         };
         match &self {
-            Self::Image(format) => format!("image_texture(at, {}u, context)", format.number()),
+            Self::Image(format, false) => format!("image_texture(at, {}u, context)", format.number()),
+            Self::Image(format, true) => {
+                format!("image_texture_trilinear(at, {}u, context)", format.number())
+            }
+            Self::Stack(format, space) => {
+                let point = Place { coordinates: *space, filtered: false }.point();
+                format!("stack_texture(at + {}u, {}u, {point})", Pattern::WORDS, format.number())
+            }
             Self::Constant => "texture_constant(at)".to_owned(),
             Self::Checker(place, dimensions, of) => {
                 let (point, of) = (place.point(), inputs(of));
@@ -99,6 +109,16 @@ impl Shape {
                 let word = Pattern::WORDS;
                 self.seen(of, 0, &format!("warped(context, at + {word}u, vec3({x}, {y}, {z}))"))
             }
+            Self::Mapped(..) | Self::User(_) => String::new(),
+        }
+    }
+
+    /// The body of its function.
+    fn body(self, users: &[&GlslTexture]) -> String {
+        match self {
+            Self::Mapped(mapping, [input]) => mapping.body(input),
+            Self::User(user) => user::body(user as usize, users[user as usize]),
+            _ => format!("return {};", self.expression()),
         }
     }
 
@@ -260,8 +280,19 @@ const HEAD: &str = "// Generated from the textures of the scene.
 
 /// The file, with a function for each use of textures and the shapes that it may meet. A shape that is only ever an input of
 /// others has no case: on Mesa before 24.3 a case that no lane takes costs as much as any.
-pub(super) fn glsl(shapes: &[Shape], uses: &[(&str, Vec<bool>)]) -> String {
+pub(super) fn glsl(shapes: &[Shape], uses: &[(&str, Vec<bool>)], users: &[&GlslTexture]) -> String {
     let mut text = String::from(HEAD);
+    let any = |is: fn(&Shape) -> bool| shapes.iter().any(is);
+    for (file, used) in [
+        ("pyramid", any(|shape| matches!(shape, Shape::Image(_, true)))),
+        ("stack", any(|shape| matches!(shape, Shape::Stack(..)))),
+        ("mapping", any(|shape| matches!(shape, Shape::Mapped(..)))),
+        ("library", !users.is_empty()),
+    ] {
+        if used {
+            _ = writeln!(text, "#include \"texture/{file}.glsl\"");
+        }
+    }
     let mut sums: Vec<String> =
         shapes.iter().filter_map(|shape| shape.sum()).map(|sum| sum.function()).collect();
     sums.sort();
@@ -269,9 +300,12 @@ pub(super) fn glsl(shapes: &[Shape], uses: &[(&str, Vec<bool>)]) -> String {
     for sum in sums {
         _ = writeln!(text, "{sum}");
     }
+    for (i, user) in users.iter().enumerate() {
+        user::write_text(&mut text, i, user);
+    }
     for (i, shape) in shapes.iter().enumerate() {
-        let value = shape.expression();
-        _ = writeln!(text, "vec4 texture_{i}(uint at, TextureContext context) {{ return {value}; }}");
+        let body = shape.body(users);
+        _ = writeln!(text, "vec4 texture_{i}(uint at, TextureContext context) {{ {body} }}");
     }
     for (name, roots) in uses {
         _ = write!(

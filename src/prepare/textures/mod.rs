@@ -8,14 +8,17 @@ mod builder;
 mod glsl;
 mod image;
 mod join;
+mod mapping;
 mod noise;
 mod pattern;
 mod range;
 mod shape;
+mod stack;
+mod user;
 
 use super::atlas::Atlas;
 use super::{Prepared, rows};
-use crate::scene::{Handle, Scene, Texture, Warp};
+use crate::scene::{Handle, Scene, TexelFilter, Texture, Warp};
 use crate::{Error, Result};
 use builder::{Builder, Node};
 use glsl::glsl;
@@ -66,13 +69,17 @@ impl References {
 ///
 /// When a texture is made of itself, or they are more than the kernels count.
 pub fn prepare_textures(scene: &Scene, asked: &[Handle<Texture>]) -> Result<PreparedTextures> {
-    let (textures, _) = build(scene, &[("texture_evaluate", asked.iter().copied().collect())])?;
+    let (textures, _) =
+        build(scene, &[("texture_evaluate", asked.iter().copied().collect())], asked.to_vec())?;
     Ok(textures)
 }
 
 /// Fills `textures`, `texels` and `texture_glsl`.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
-    let (textures, references) = build(scene, &uses(scene))?;
+    let materials = || scene.materials.iter().map(|(_, _, material)| material);
+    let maps = materials().filter_map(|material| Some(material.detail.normal_map?.texture));
+    let seen = materials().flat_map(|material| material.textures()).chain(maps).collect();
+    let (textures, references) = build(scene, &uses(scene), seen)?;
     out.features.footprint |= textures.footprint;
     (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
     Ok(references)
@@ -81,22 +88,41 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
 /// A use of textures: the function of the kernels that gives their values, and those that it is asked for.
 type Use = (&'static str, BTreeSet<Handle<Texture>>);
 
-fn build(scene: &Scene, uses: &[Use]) -> Result<(PreparedTextures, References)> {
+/// `seen` are the textures of surfaces, where the width of a pixel is known.
+fn build(scene: &Scene, uses: &[Use], seen: Vec<Handle<Texture>>) -> Result<(PreparedTextures, References)> {
     if let Some(handle) = Texture::without_end(&scene.textures) {
         return Err(Error::scene(Texture::endless(scene.textures.name(handle))));
     }
+    let seen = with_inputs(scene, seen);
     let mut atlas = Atlas::default();
     let mut places = BTreeMap::new();
+    let mut stacks = BTreeMap::new();
     for (handle, _, texture) in scene.textures.iter() {
         if let Texture::Image(texture) = texture {
             places.insert(handle, atlas.place(scene, texture)?);
+            if texture.filter == TexelFilter::Trilinear && seen.contains(&handle) {
+                atlas.pyramid(scene, texture)?;
+            }
+        }
+        if let Texture::Stack(stack) = texture {
+            stacks.insert(handle, atlas.stack(scene, stack)?);
         }
     }
     let has_noise = scene.textures.iter().any(|(_, _, texture)| reads_noise(texture));
     // The kernels look for it at the start
     let words = if has_noise { noise::words().collect() } else { Vec::new() };
     let done = vec![None; scene.textures.len()];
-    let mut builder = Builder { scene, atlas, places, shapes: Vec::new(), words, kept: HashMap::new(), done };
+    let mut builder = Builder {
+        scene,
+        atlas,
+        places,
+        users: Vec::new(),
+        stacks,
+        shapes: Vec::new(),
+        words,
+        kept: HashMap::new(),
+        done,
+    };
     let mut references = References { references: Vec::new(), ranges: Vec::new() };
     let nodes: Vec<Node> = scene.textures.iter().map(|(handle, ..)| builder.node(handle)).collect();
     for node in &nodes {
@@ -109,7 +135,7 @@ fn build(scene: &Scene, uses: &[Use]) -> Result<(PreparedTextures, References)> 
         (*name, roots)
     });
     let roots: Vec<_> = roots.collect();
-    let Builder { atlas, shapes, words, .. } = builder;
+    let Builder { atlas, shapes, users, words, .. } = builder;
     if words.len() >= 1 << 24 || shapes.len() >= 255 {
         let (count, most) = (shapes.len(), 1 << 24);
         return Err(Error::scene(format!(
@@ -121,7 +147,7 @@ fn build(scene: &Scene, uses: &[Use]) -> Result<(PreparedTextures, References)> 
     let textures = PreparedTextures {
         records: words,
         texels: atlas.into_words(),
-        glsl: glsl(&shapes, &roots),
+        glsl: glsl(&shapes, &roots, &users),
         references: references.references.clone(),
         footprint: shapes.iter().any(|shape| shape.sees_footprint()),
     };
@@ -130,8 +156,19 @@ fn build(scene: &Scene, uses: &[Use]) -> Result<(PreparedTextures, References)> 
 
 /// Whether a texture needs the permutation of gradient noise.
 fn reads_noise(texture: &Texture) -> bool {
-    use Texture::{Dots, Noise, Veins};
-    matches!(texture, Noise(_) | Dots(_) | Veins(_) | Texture::Warp(Warp::Noise { .. }))
+    use Texture::{Dots, Glsl, Noise, Veins};
+    matches!(texture, Noise(_) | Glsl(_) | Dots(_) | Veins(_) | Texture::Warp(Warp::Noise { .. }))
+}
+
+/// Some textures and all that they are made of.
+fn with_inputs(scene: &Scene, mut open: Vec<Handle<Texture>>) -> BTreeSet<Handle<Texture>> {
+    let mut found = BTreeSet::new();
+    while let Some(handle) = open.pop() {
+        if found.insert(handle) {
+            open.extend(scene.textures[handle].inputs());
+        }
+    }
+    found
 }
 
 /// What a scene asks of its textures. One that is asked for nothing and is no input of another is there to be evaluated.

@@ -1,12 +1,17 @@
 //! What a texture tree is, but for its numbers: textures of one shape share a function.
 
+use super::mapping::MappingShape;
 use crate::prepare::atlas::Format;
 use crate::scene::{Coordinates, Gradient, Metric, NoiseSum, PatternSpace, Perlin, VeinKind, WorleyFeature};
 
 /// A node of a texture tree. Its inputs are shapes with smaller numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shape {
-    Image(Format),
+    /// How its texels are kept, and whether it has a pyramid.
+    Image(Format, bool),
+    /// The number of its text.
+    User(u32),
+    Stack(Format, Coordinates),
     Constant,
     Checker(Place, u32, [Input; 2]),
     Noise(NoiseShape, Place, [Input; 2]),
@@ -27,6 +32,7 @@ pub(super) enum Shape {
     Invert([Input; 1]),
     WarpBy([Input; 2]),
     WarpNoise(Place, [Input; 1]),
+    Mapped(MappingShape, [Input; 1]),
 }
 
 /// An input of a tree: a constant in its record, or a tree of a shape.
@@ -69,6 +75,8 @@ impl Shape {
             | Self::Dots(place, _)
             | Self::Veins(_, place)
             | Self::WarpNoise(place, _) => place.filtered,
+            Self::Image(_, pyramid) => pyramid,
+            Self::User(_) => true,
             _ => false,
         }
     }

@@ -10,6 +10,8 @@ pub enum TexelFilter {
     Nearest,
     /// Bilinear between the four texels around the point; texel centres are at (i + ½) / n.
     Bilinear,
+    /// Bilinear on the two levels of a pyramid of halved pictures whose texels are about as wide as the pixel, and mixed.
+    Trilinear,
 }
 
 /// What lies outside [0, 1) of a texture coordinate.

@@ -1,12 +1,18 @@
 //! Textures: functions of a surface point that give a colour or a number.
 
+pub mod glsl;
 mod image;
+mod mapping;
 mod noise;
 mod pattern;
+mod stack;
 
+pub use glsl::{GlslTexture, Parameter};
 pub use image::{Channel, ColorSpace, Image, ImageTexture, TexelFilter, Texels, UvTransform, Wrap};
+pub use mapping::{Mapping, MappingKind, MappingSpace};
 pub use noise::{Noise, NoiseSum, Perlin, PerlinVariant, Spread, ValueNoise, VeinKind, Veins, Warp};
 pub use pattern::{Brick, Coordinates, Dots, Gradient, Metric, PatternSpace, WorleyFeature};
+pub use stack::StackTexture;
 
 use super::{Handle, Store};
 use glam::Vec3;
@@ -35,6 +41,10 @@ impl<T> Value<T> {
 pub enum Texture {
     /// A picture, placed by the uv of the surface.
     Image(ImageTexture),
+    /// A function of the user's own.
+    Glsl(GlslTexture),
+    /// A volume of texels.
+    Stack(StackTexture),
     /// The same everywhere.
     Constant(Vec3),
     /// Unit squares or cubes in turn, the one that begins at the origin even.
@@ -137,6 +147,13 @@ pub enum Texture {
         /// What is inverted.
         value: Value<Vec3>,
     },
+    /// Another texture at other texture coordinates.
+    Mapped {
+        /// What is seen there.
+        value: Value<Vec3>,
+        /// Where.
+        mapping: Mapping,
+    },
 }
 
 impl Texture {
@@ -144,7 +161,7 @@ impl Texture {
     pub fn inputs(&self) -> impl Iterator<Item = Handle<Texture>> {
         let two = |a: &Value<Vec3>, b: &Value<Vec3>| [a.texture(), b.texture(), None];
         let inputs = match self {
-            Self::Image(_) | Self::Constant(_) | Self::Veins(_) => [None; 3],
+            Self::Image(_) | Self::Glsl(_) | Self::Stack(_) | Self::Constant(_) | Self::Veins(_) => [None; 3],
             Self::Checker { even: a, odd: b, .. }
             | Self::Noise(Noise { low: a, high: b, .. })
             | Self::ValueNoise(ValueNoise { low: a, high: b, .. })
@@ -156,7 +173,9 @@ impl Texture {
             | Self::Multiply { a, b } => two(a, b),
             Self::Ramp { value, .. } => [value.texture(), None, None],
             Self::Mix { a, b, amount } => [a.texture(), b.texture(), amount.texture()],
-            Self::Curve { value, .. } | Self::Invert { value } => [value.texture(), None, None],
+            Self::Curve { value, .. } | Self::Invert { value } | Self::Mapped { value, .. } => {
+                [value.texture(), None, None]
+            }
             Self::Scale { value, factor } => [value.texture(), factor.texture(), None],
             Self::Warp(Warp::By { value, by, .. }) => two(value, by),
             Self::Warp(Warp::Noise { value, .. }) => [value.texture(), None, None],

@@ -189,6 +189,15 @@ fn textures_take_every_key() {
     );
     assert_eq!((wood.color_space, wood.channel), (ColorSpace::Linear, Channel::G));
     assert_eq!((wood.scale, wood.invert), (0.5, true));
+    let Texture::Mapped { value, mapping } = textures["label"] else { panic!() };
+    assert!(scene.textures[value.texture().unwrap()] == *textures["picture of label"]);
+    assert_eq!((mapping.kind, mapping.space), (MappingKind::Spherical, MappingSpace::World));
+    assert_eq!((mapping.pole_u, mapping.seam_blend, mapping.sharpness), (0.5, 0.125, 4.0));
+    // The pole stays along z, at half the size; the meridian is made orthogonal to it
+    let place = mapping.mapping_from_space.transform_point3(Vec3::new(2.0, 0.0, 6.0));
+    assert!((place - Vec3::new(1.0, 0.0, 3.0)).length() < 1e-6, "{place}");
+    let Texture::Mapped { mapping, .. } = textures["crate"] else { panic!() };
+    assert_eq!((mapping.kind, mapping.sharpness), (MappingKind::Triplanar, 8.0));
     let Texture::Image(plain) = textures["plain"] else { panic!() };
     assert_eq!(
         (plain.color_space, plain.wrap, plain.filter),
@@ -196,7 +205,20 @@ fn textures_take_every_key() {
     );
     let Texture::Image(sky) = textures["sky"] else { panic!() };
     assert_eq!(sky.color_space, ColorSpace::Linear);
-    assert_eq!(scene.images.len(), 2, "wood and plain name the same file");
+    let Texture::Glsl(own) = textures["own"] else { panic!() };
+    let parameters = [("factor", Parameter::Number(2.0)), ("tint", Parameter::Color(Vec3::ONE))];
+    assert_eq!(own.parameters, parameters.map(|(name, value)| (name.to_owned(), value)));
+    assert_eq!((own.max, own.file.as_path()), (5.0, Path::new("scene.toml")));
+    let line = ALL.lines().position(|line| line.starts_with("vec4 color")).unwrap();
+    assert_eq!(own.line as usize, line + 1);
+    let Texture::Stack(scan) = textures["scan"] else { panic!() };
+    assert_eq!(scan.wrap, [Wrap::Mirror, Wrap::Repeat, Wrap::Clamp], "z, x, y in turn");
+    assert_eq!((scan.smooth, scan.color_space, scan.channel), (false, ColorSpace::Srgb, Channel::R));
+    assert_eq!((scan.scale, scan.invert, scan.space.coordinates), (2.0, true, Coordinates::World));
+    let place = scan.space.pattern_from_space.transform_point3(Vec3::new(2.0, 4.0, 6.0));
+    assert_eq!(place, Vec3::new(3.0, 1.0, 2.0));
+    let files: Vec<_> = scene.images.iter().map(|(_, name, _)| name).collect();
+    assert_eq!(files, ["wood.png", "sky.exr", "scan07.exr", "scan08.exr"], "each file once");
     let Texture::Image(glow) = textures["emission of screen"] else { panic!() };
     assert_eq!((glow.image, glow.scale), (plain.image, 4.0));
 }

@@ -1,7 +1,6 @@
 //! `kind = "image"`.
 
 use crate::Result;
-use crate::import::toml::include::identity;
 use crate::import::toml::reader::Reader;
 use crate::import::toml::text::Limits;
 use crate::import::toml::view::{Item, View};
@@ -10,21 +9,16 @@ use crate::scene::{
 };
 use glam::Vec2;
 
-const WRAPS: [(&str, Wrap); 4] =
+pub(super) const WRAPS: [(&str, Wrap); 4] =
     [("repeat", Wrap::Repeat), ("clamp", Wrap::Clamp), ("mirror", Wrap::Mirror), ("black", Wrap::Black)];
 
 impl Reader<'_> {
     pub(super) fn image_texture(&mut self, view: &View<'_>) -> Result<ImageTexture> {
-        let filters = [("bilinear", TexelFilter::Bilinear), ("nearest", TexelFilter::Nearest)];
-        let channels = [
-            ("rgb", Channel::Rgb),
-            ("r", Channel::R),
-            ("g", Channel::G),
-            ("b", Channel::B),
-            ("a", Channel::A),
+        let filters = [
+            ("trilinear", TexelFilter::Trilinear),
+            ("bilinear", TexelFilter::Bilinear),
+            ("nearest", TexelFilter::Nearest),
         ];
-        let spaces = [("srgb", ColorSpace::Srgb), ("linear", ColorSpace::Linear)];
-
         let file = view.need("file")?;
         let filter = view.choice_or("filter", TexelFilter::Bilinear, &filters)?;
         let wrap = view.get("wrap").map_or(Ok([Wrap::Repeat; 2]), wrap)?;
@@ -33,34 +27,14 @@ impl Reader<'_> {
             rotate: view.f32_or("uv_rotate", 0.0, Limits::Finite)?,
             offset: view.get("uv_offset").map_or(Ok(Vec2::ZERO), |item| item.vec2(Limits::Finite))?,
         };
-        let color_space = match view.get("color_space") {
-            Some(item) => Some(item.choice(&spaces)?),
-            None => None,
-        };
-        let channel = view.choice_or("channel", Channel::Rgb, &channels)?;
-        let scale = view.f32_or("scale", 1.0, Limits::AtLeast(0.0))?;
-        let invert = view.bool_or("invert", false)?;
-
-        let image = self.image(file)?;
-        let color_space = color_space.unwrap_or(match self.scene.images[image].texels {
-            Texels::Rgba8(_) | Texels::Rgba16(_) => ColorSpace::Srgb,
-            Texels::RgbaF32(_) => ColorSpace::Linear,
-        });
+        let image = self.image_at(file, file.path()?)?;
+        let (color_space, channel, scale, invert) = shading(view, &self.scene.images[image])?;
         Ok(ImageTexture { image, filter, wrap, uv, color_space, channel, scale, invert })
     }
 
     /// The picture of a file, loaded once.
     pub(in crate::import::toml) fn image(&mut self, file: Item<'_>) -> Result<Handle<Image>> {
-        let path = file.path()?;
-        let identity = identity(&path);
-        if let Some(&handle) = self.images.get(&identity) {
-            return Ok(handle);
-        }
-        self.need_file(file.node.spot, &path)?;
-        let image = self.assets.image(&path).map_err(|error| self.sources.locate(file.node.spot, error))?;
-        let handle = self.scene.images.add(path.display().to_string(), image);
-        self.images.insert(identity, handle);
-        Ok(handle)
+        self.image_at(file, file.path()?)
     }
 }
 
@@ -74,4 +48,21 @@ fn wrap(item: Item<'_>) -> Result<[Wrap; 2]> {
 
 fn uv_scale(item: Item<'_>) -> Result<Vec2> {
     if item.is_number() { item.f32(Limits::NotZero).map(Vec2::splat) } else { item.vec2(Limits::NotZero) }
+}
+
+/// How the numbers of a picture are meant, which channel is given, the factor on it, and whether it is inverted.
+pub(super) fn shading(view: &View<'_>, image: &Image) -> Result<(ColorSpace, Channel, f32, bool)> {
+    let channels =
+        [("rgb", Channel::Rgb), ("r", Channel::R), ("g", Channel::G), ("b", Channel::B), ("a", Channel::A)];
+    let usual = match image.texels {
+        Texels::Rgba8(_) | Texels::Rgba16(_) => ColorSpace::Srgb,
+        Texels::RgbaF32(_) => ColorSpace::Linear,
+    };
+    let spaces = [("srgb", ColorSpace::Srgb), ("linear", ColorSpace::Linear)];
+    Ok((
+        view.choice_or("color_space", usual, &spaces)?,
+        view.choice_or("channel", Channel::Rgb, &channels)?,
+        view.f32_or("scale", 1.0, Limits::AtLeast(0.0))?,
+        view.bool_or("invert", false)?,
+    ))
 }

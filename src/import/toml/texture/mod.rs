@@ -1,9 +1,12 @@
 //! `[texture.NAME]`.
 
+mod glsl;
 mod image;
 mod join;
+mod mapping;
 mod noise;
 mod pattern;
+mod stack;
 
 use super::document::Entry;
 use super::keys::TEXTURE;
@@ -14,6 +17,7 @@ use super::view::View;
 use crate::scene::{Texture, Value};
 use crate::{Error, Result};
 use glam::Vec3;
+use mapping::mapping;
 use noise::veins;
 
 impl Reader<'_> {
@@ -62,7 +66,19 @@ impl Reader<'_> {
             },
             "invert" => Texture::Invert { value: self.input(&view, "value")? },
             "warp" => self.warp(&view)?,
-            _ => Texture::Image(self.image_texture(&view)?),
+            "glsl" => Texture::Glsl(self.glsl_texture(&view)?),
+            "stack" => Texture::Stack(self.stack_texture(&view)?),
+            "mapped" => {
+                let mapping = mapping(&view)?
+                    .ok_or_else(|| view.error(format!("`mapping` is missing in {}", view.what)))?;
+                Texture::Mapped { value: self.input(&view, "value")?, mapping }
+            }
+            _ => {
+                let image = Texture::Image(self.image_texture(&view)?);
+                let Some(mapping) = mapping(&view)? else { return Ok(image) };
+                let image = self.scene.textures.add(format!("picture of {}", entry.key), image);
+                Texture::Mapped { value: Value::Texture(image), mapping }
+            }
         })
     }
 
