@@ -390,6 +390,66 @@ Detail detail_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4)
     return r;
 }
 
+struct Light {
+    uint kind; // LIGHT_… kind
+    float chance; // chance of choosing it
+    float accept; // share of its slot of the alias table that is its own
+    uint alias; // the light that has the rest of the slot
+    vec3 position; // position, centre, corner or first vertex
+    float a; // radius (0: ellipsoid); -1 when a flat light faces against u × v; cosine of a spot's inner cone
+    vec3 edge_u; // first edge, axis, or second vertex less the first
+    float b; // cosine of the outer cone of a spot; area of a surface
+    vec3 edge_v; // second edge, or third vertex less the first
+    uint two_sided; // 1 when it shines on both sides
+    vec3 radiance; // radiance, intensity or irradiance
+    uint texture; // texture of the radiance, or NONE
+    vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a sphere
+    vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
+    vec2 uv2; // uv of the third vertex less the first
+    uint material; // material of a surface
+    uint spare; // room
+};
+const uint LIGHT_WORDS = 7u;
+Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
+{
+    Light r;
+    r.kind = w0.x;
+    r.chance = uintBitsToFloat(w0.y);
+    r.accept = uintBitsToFloat(w0.z);
+    r.alias = w0.w;
+    r.position = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.a = uintBitsToFloat(w1.w);
+    r.edge_u = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
+    r.b = uintBitsToFloat(w2.w);
+    r.edge_v = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
+    r.two_sided = w3.w;
+    r.radiance = uintBitsToFloat(uvec3(w4.x, w4.y, w4.z));
+    r.texture = w4.w;
+    r.uv0 = uintBitsToFloat(uvec2(w5.x, w5.y));
+    r.uv1 = uintBitsToFloat(uvec2(w5.z, w5.w));
+    r.uv2 = uintBitsToFloat(uvec2(w6.x, w6.y));
+    r.material = w6.z;
+    r.spare = w6.w;
+    return r;
+}
+
+struct EnvironmentCell {
+    float accept; // share of the slot that is its own
+    uint alias; // the cell that has the rest
+    float chance; // chance of the cell
+    uint spare; // room
+};
+const uint ENVIRONMENT_CELL_WORDS = 1u;
+EnvironmentCell environment_cell_unpack(uvec4 w0)
+{
+    EnvironmentCell r;
+    r.accept = uintBitsToFloat(w0.x);
+    r.alias = w0.y;
+    r.chance = uintBitsToFloat(w0.z);
+    r.spare = w0.w;
+    return r;
+}
+
 struct ImageTexture {
     uint base; // word of its first block of texels
     uint pitch; // words from a row of blocks to the next
@@ -513,66 +573,6 @@ TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 
     r.time = uintBitsToFloat(w3.w);
     r.object_normal = uintBitsToFloat(uvec3(w4.x, w4.y, w4.z));
     r.reference = w4.w;
-    return r;
-}
-
-struct Light {
-    uint kind; // LIGHT_… kind
-    float chance; // chance of choosing it
-    float accept; // share of its slot of the alias table that is its own
-    uint alias; // the light that has the rest of the slot
-    vec3 position; // position, centre, corner or first vertex
-    float a; // radius (0: ellipsoid); -1 when a flat light faces against u × v; cosine of a spot's inner cone
-    vec3 edge_u; // first edge, axis, or second vertex less the first
-    float b; // cosine of the outer cone of a spot; area of a surface
-    vec3 edge_v; // second edge, or third vertex less the first
-    uint two_sided; // 1 when it shines on both sides
-    vec3 radiance; // radiance, intensity or irradiance
-    uint texture; // texture of the radiance, or NONE
-    vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a sphere
-    vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
-    vec2 uv2; // uv of the third vertex less the first
-    uint material; // material of a surface
-    uint spare; // room
-};
-const uint LIGHT_WORDS = 7u;
-Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
-{
-    Light r;
-    r.kind = w0.x;
-    r.chance = uintBitsToFloat(w0.y);
-    r.accept = uintBitsToFloat(w0.z);
-    r.alias = w0.w;
-    r.position = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
-    r.a = uintBitsToFloat(w1.w);
-    r.edge_u = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
-    r.b = uintBitsToFloat(w2.w);
-    r.edge_v = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
-    r.two_sided = w3.w;
-    r.radiance = uintBitsToFloat(uvec3(w4.x, w4.y, w4.z));
-    r.texture = w4.w;
-    r.uv0 = uintBitsToFloat(uvec2(w5.x, w5.y));
-    r.uv1 = uintBitsToFloat(uvec2(w5.z, w5.w));
-    r.uv2 = uintBitsToFloat(uvec2(w6.x, w6.y));
-    r.material = w6.z;
-    r.spare = w6.w;
-    return r;
-}
-
-struct EnvironmentCell {
-    float accept; // share of the slot that is its own
-    uint alias; // the cell that has the rest
-    float chance; // chance of the cell
-    uint spare; // room
-};
-const uint ENVIRONMENT_CELL_WORDS = 1u;
-EnvironmentCell environment_cell_unpack(uvec4 w0)
-{
-    EnvironmentCell r;
-    r.accept = uintBitsToFloat(w0.x);
-    r.alias = w0.y;
-    r.chance = uintBitsToFloat(w0.z);
-    r.spare = w0.w;
     return r;
 }
 

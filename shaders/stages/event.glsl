@@ -23,6 +23,15 @@ const float SAMPLE_SPREAD = 0.25;
 // Cosine below which a slanted pixel is not made longer.
 const float LEAST_SLANT = 0.05;
 
+// The same point without a size.
+TextureContext sharp(TextureContext context)
+{
+    context.footprint = 0.0;
+    context.object_footprint = 0.0;
+    context.uv_footprint = vec2(0.0);
+    return context;
+}
+
 // What a texture is told of a surface: with the width of the pixel there. Where the ray is slanted the pixel is longer than wide:
 // the width is the side of a square of its area.
 TextureContext context_of(Surface surface, WaveRay ray, vec3 facing_normal)

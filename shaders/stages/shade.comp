@@ -2,7 +2,7 @@
 // Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_GLASS, HAS_MEDIUM, HAS_MIX, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
 // TRANSPARENT_FILM and those of the menus.
 #include "stages/direct.glsl"
-#include "stages/relief.glsl"
+#include "stages/scatter.glsl"
 #ifdef HAS_FILTER
 #include "stages/filter.glsl"
 #endif
@@ -26,46 +26,6 @@ void shade_miss(inout Path path, vec3 direction)
 #ifdef HAS_ENVIRONMENT
     add_emission(path, environment_radiance(direction), path.pdf > 0.0 ? environment_light_pdf(direction) : 0.0);
 #endif
-}
-
-// Chooses the next direction; false when the path ends.
-bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, inout WaveRay ray)
-{
-    float lobe = sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_LOBE));
-    BsdfSample s = bsdf_sample(bsdf, wo, lobe, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_BSDF)));
-    vec3 wi = basis_to_world(basis, s.wi);
-    float side = dot(wi, surface.geometric);
-    if (max_component(s.weight) <= 0.0) return false;
-#ifdef GEOMETRIC_VETO
-    if (side * s.wi.z <= 0.0) return false;
-#endif
-#if defined(HAS_BUMP) || defined(HAS_NORMAL_MAP)
-    if (!s.through && s.pdf > 0.0) s.weight *= softening(surface, wi);
-#endif
-    path.throughput *= s.weight;
-    path.pdf = s.pdf;
-    if (s.pdf > 0.0) path.diffuse_depth += 1u;
-#ifdef HAS_GLASS
-    if (s.through) {
-        path.eta_scale *= s.eta * s.eta;
-        path.medium = medium_beyond(bsdf, surface.material, side);
-    }
-#endif
-    path.depth += 1u;
-#ifdef ROULETTE
-    float survival = max_component(path.throughput) * path.eta_scale;
-    if (path.depth > 2u && survival < 1.0) {
-        if (sample_1d(path.key, bounce_dimension(path.depth - 1u, DIMENSION_ROULETTE)) >= survival) return false;
-        path.throughput /= survival;
-    }
-#endif
-#ifdef HAS_FOOTPRINT
-    ray.width += ray.spread * distance(ray.origin, surface.position);
-    if (s.pdf > 0.0) ray.spread = max(ray.spread, SAMPLE_SPREAD * inversesqrt(PI * s.pdf));
-#endif
-    ray.origin = ray_origin(surface, side);
-    ray.direction = wi;
-    return true;
 }
 
 // One event; true when the path goes on.
@@ -105,7 +65,8 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     Bsdf bsdf = material_bsdf(material, context);
     vec3 emitted = vec3(0.0);
     if (front || (shining.flags & MATERIAL_TWO_SIDED) != 0u) {
-        emitted = material_emission(shining, context);
+        // What a bounce finds is what light sampling would have found: lamps are sampled at points
+        emitted = material_emission(shining, path.pdf > 0.0 ? sharp(context) : context);
         float pdf = 0.0;
         if (path.pdf > 0.0 && surface.light != NONE) pdf = light_pdf(surface.light, ray.origin, surface.position, surface.geometric);
         add_emission(path, emitted, pdf);

@@ -13,6 +13,7 @@ mod glsl;
 mod lens;
 mod patterns;
 mod records;
+mod textures;
 
 pub use bindings::{BINDINGS, Backend, Binding, BindingKind, bindings_glsl};
 pub use constants::*;
@@ -20,6 +21,7 @@ pub use glsl::layout_glsl;
 pub use lens::{LensInterface, OpeningCell, PupilBounds};
 pub use patterns::*;
 pub use records::*;
+pub use textures::*;
 
 /// Bytes of the word that kernels read.
 pub const WORD_BYTES: u64 = 16;
@@ -82,7 +84,7 @@ impl RecordInfo {
 
 /// Every record, in the order of `layout.glsl`.
 pub fn records() -> impl Iterator<Item = &'static RecordInfo> {
-    [records::ALL, patterns::ALL, lens::ALL].into_iter().flatten()
+    [records::ALL, textures::ALL, patterns::ALL, lens::ALL].into_iter().flatten()
 }
 
 #[cfg(test)]

@@ -1,0 +1,45 @@
+// The next direction of a path. Switches of the variant: HAS_BUMP, HAS_NORMAL_MAP, HAS_GLASS, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO.
+#include "stages/event.glsl"
+#include "stages/relief.glsl"
+#include "material/material.glsl"
+#include "material/medium.glsl"
+
+// Chooses the next direction; false when the path ends.
+bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, inout WaveRay ray)
+{
+    float lobe = sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_LOBE));
+    BsdfSample s = bsdf_sample(bsdf, wo, lobe, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_BSDF)));
+    vec3 wi = basis_to_world(basis, s.wi);
+    float side = dot(wi, surface.geometric);
+    if (max_component(s.weight) <= 0.0) return false;
+#ifdef GEOMETRIC_VETO
+    if (side * s.wi.z <= 0.0) return false;
+#endif
+#if defined(HAS_BUMP) || defined(HAS_NORMAL_MAP)
+    if (!s.through && s.pdf > 0.0) s.weight *= softening(surface, wi);
+#endif
+    path.throughput *= s.weight;
+    path.pdf = s.pdf;
+    if (s.pdf > 0.0) path.diffuse_depth += 1u;
+#ifdef HAS_GLASS
+    if (s.through) {
+        path.eta_scale *= s.eta * s.eta;
+        path.medium = medium_beyond(bsdf, surface.material, side);
+    }
+#endif
+    path.depth += 1u;
+#ifdef ROULETTE
+    float survival = max_component(path.throughput) * path.eta_scale;
+    if (path.depth > 2u && survival < 1.0) {
+        if (sample_1d(path.key, bounce_dimension(path.depth - 1u, DIMENSION_ROULETTE)) >= survival) return false;
+        path.throughput /= survival;
+    }
+#endif
+#ifdef HAS_FOOTPRINT
+    ray.width += ray.spread * distance(ray.origin, surface.position);
+    if (s.pdf > 0.0) ray.spread = max(ray.spread, SAMPLE_SPREAD * inversesqrt(PI * s.pdf));
+#endif
+    ray.origin = ray_origin(surface, side);
+    ray.direction = wi;
+    return true;
+}
