@@ -128,6 +128,7 @@ vec2 sample_pixel(SampleKey key, uint dimension)
 // Dimensions of the camera, then of each bounce.
 const uint DIMENSION_PIXEL = 0u;
 const uint DIMENSION_LENS = 1u;
+const uint DIMENSION_TIME = 2u;
 const uint DIMENSION_OPENING = 6u;
 const uint DIMENSION_WAVELENGTH = 7u;
 const uint DIMENSION_BOUNCES = 8u;

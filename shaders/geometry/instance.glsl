@@ -1,13 +1,31 @@
-// Maps between the world and the object space of an instance.
+// Maps between the world and the object space of an instance. Switch of the variant: HAS_MOTION (some instances move).
 #include "shared/bindings.glsl"
 #include "base/math.glsl"
+#ifdef HAS_MOTION
+#include "base/time.glsl"
+#include "geometry/motion.glsl"
+#endif
 
 Instance instance_fetch(uint i)
 {
     uint w = i * INSTANCE_WORDS;
-    return instance_unpack(fetch_instances(w), fetch_instances(w + 1u), fetch_instances(w + 2u), fetch_instances(w + 3u),
-                           fetch_instances(w + 4u), fetch_instances(w + 5u), fetch_instances(w + 6u),
-                           fetch_instances(w + 7u));
+    Instance instance = instance_unpack(fetch_instances(w), fetch_instances(w + 1u), fetch_instances(w + 2u),
+                                        fetch_instances(w + 3u), fetch_instances(w + 4u), fetch_instances(w + 5u),
+                                        fetch_instances(w + 6u), fetch_instances(w + 7u));
+#ifdef HAS_MOTION
+    // Where it is at the time of the path
+    if (instance.motion != NONE) {
+        Place place = motion_place(motion_fetch(instance.motion), path_time);
+        Place inverse = motion_inverse(place);
+        instance.world_row0 = place.row0;
+        instance.world_row1 = place.row1;
+        instance.world_row2 = place.row2;
+        instance.object_row0 = inverse.row0;
+        instance.object_row1 = inverse.row1;
+        instance.object_row2 = inverse.row2;
+    }
+#endif
+    return instance;
 }
 
 vec3 affine_point(vec4 row0, vec4 row1, vec4 row2, vec3 p)

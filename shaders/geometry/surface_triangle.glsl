@@ -44,7 +44,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
         Vertex a = vertex_fetch(face.vertices.x);
         Vertex b = vertex_fetch(face.vertices.y);
         Vertex c = vertex_fetch(face.vertices.z);
-        if (instance.default_uv == 0u) {
+        if ((instance.flags & INSTANCE_DEFAULT_UV) == 0u) {
             uv0 = vec2(a.u, a.v);
             uv1 = vec2(b.u, b.v);
             uv2 = vec2(c.u, c.v);
@@ -100,6 +100,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
         s.dndv = -s.dndv;
     }
     s.material = triangle.material != NONE ? triangle.material : instance.material;
-    s.light = instance.light == NONE ? NONE : instance.light + instance.light_stride * s.primitive;
+    uint own = (instance.flags & INSTANCE_TRIANGLE_LIGHTS) != 0u ? s.primitive : 0u;
+    s.light = instance.light == NONE ? NONE : instance.light + own;
     return s;
 }

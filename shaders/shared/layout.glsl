@@ -48,6 +48,8 @@ const uint INSTANCE_MESH = 0u; // Instance kind: triangles in object space.
 const uint INSTANCE_SOUP = 1u; // Instance kind: all triangles that are placed once, in world space.
 const uint INSTANCE_SPHERE = 2u; // Instance kind: unit sphere.
 const uint INSTANCE_DISK = 3u; // Instance kind: unit disk.
+const uint INSTANCE_DEFAULT_UV = 1u; // Instance flag: the mesh has no uv, so that it is (0,0), (1,0), (1,1) on every triangle.
+const uint INSTANCE_TRIANGLE_LIGHTS = 2u; // Instance flag: each triangle is a light of its own; else they are one light together.
 const uint MATERIAL_UNLIT = 0u; // Material kind: colour is radiance.
 const uint MATERIAL_DIFFUSE = 1u; // Material kind: Lambertian.
 const uint MATERIAL_PHONG = 2u; // Material kind: modified Phong.
@@ -138,7 +140,7 @@ struct Frame {
     uint pupil_bounds; // first word of `lens` with bounds of the exit pupil
     float pupil_scale; // intervals of these in a millimetre of film
     float fisheye_scale; // half the angle of a fisheye in radians; equisolid: the sine of half of that
-    float camera_spare; // room
+    uint camera_motion; // first word of `instances` with the motion of the camera, whose own fields are then those of camera space
     uint blades; // corners of the aperture; 0 = circle
     float blade_rotation; // rotation of the aperture, radians
     float filter_radius; // half-width of the pixel filter, pixels
@@ -262,9 +264,9 @@ struct Instance {
     vec4 world_row1; // row 1 of world from object
     vec4 world_row2; // row 2 of world from object
     float handedness; // 1, or -1 when the map to the world mirrors
-    uint light_stride; // 1 when each triangle is a light of its own, 0 when they are one light together
+    uint motion; // first word of `instances` with its Motion, or NONE
     uint first_face; // Face of its first triangle, or NONE for flat triangles without uv
-    uint default_uv; // 1 when the mesh has no uv: then it is (0,0), (1,0), (1,1) on every triangle
+    uint flags; // INSTANCE_… flags
 };
 const uint INSTANCE_WORDS = 8u;
 Instance instance_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6, uvec4 w7)
@@ -281,9 +283,9 @@ Instance instance_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4
     r.world_row1 = uintBitsToFloat(uvec4(w5.x, w5.y, w5.z, w5.w));
     r.world_row2 = uintBitsToFloat(uvec4(w6.x, w6.y, w6.z, w6.w));
     r.handedness = uintBitsToFloat(w7.x);
-    r.light_stride = w7.y;
+    r.motion = w7.y;
     r.first_face = w7.z;
-    r.default_uv = w7.w;
+    r.flags = w7.w;
     return r;
 }
 
@@ -737,5 +739,38 @@ OpeningCell opening_cell_unpack(uvec4 w0)
     r.alias = w0.y;
     r.weight = uintBitsToFloat(w0.z);
     r.spare = w0.w;
+    return r;
+}
+
+struct Motion {
+    vec3 open_position; // translation when it opens
+    float angle; // half of the angle of the rotation until it closes, radians
+    vec3 close_position; // translation when it closes
+    float spare; // room
+    vec4 turn; // rotation when it opens, as a quaternion x, y, z, w
+    vec4 turn_across; // unit quaternion at a right angle to it, on the way to the rotation when it closes; 0 = the same rotation
+    vec4 open_row0; // row 0 of the stretch from object when it opens
+    vec4 open_row1; // row 1 of it
+    vec4 open_row2; // row 2 of it
+    vec4 close_row0; // row 0 of the stretch from object when it closes
+    vec4 close_row1; // row 1 of it
+    vec4 close_row2; // row 2 of it
+};
+const uint MOTION_WORDS = 10u;
+Motion motion_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6, uvec4 w7, uvec4 w8, uvec4 w9)
+{
+    Motion r;
+    r.open_position = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.angle = uintBitsToFloat(w0.w);
+    r.close_position = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.spare = uintBitsToFloat(w1.w);
+    r.turn = uintBitsToFloat(uvec4(w2.x, w2.y, w2.z, w2.w));
+    r.turn_across = uintBitsToFloat(uvec4(w3.x, w3.y, w3.z, w3.w));
+    r.open_row0 = uintBitsToFloat(uvec4(w4.x, w4.y, w4.z, w4.w));
+    r.open_row1 = uintBitsToFloat(uvec4(w5.x, w5.y, w5.z, w5.w));
+    r.open_row2 = uintBitsToFloat(uvec4(w6.x, w6.y, w6.z, w6.w));
+    r.close_row0 = uintBitsToFloat(uvec4(w7.x, w7.y, w7.z, w7.w));
+    r.close_row1 = uintBitsToFloat(uvec4(w8.x, w8.y, w8.z, w8.w));
+    r.close_row2 = uintBitsToFloat(uvec4(w9.x, w9.y, w9.z, w9.w));
     return r;
 }

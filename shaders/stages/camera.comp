@@ -1,7 +1,11 @@
-// The first rays: one a slot of the wave.
+// The first rays: one a slot of the wave. Switch of the variant: MOVING_CAMERA.
 #include "stages/wave.glsl"
 #include "base/sampling.glsl"
 #include "camera/camera.glsl"
+#ifdef MOVING_CAMERA
+#include "geometry/instance.glsl"
+#include "geometry/motion.glsl"
+#endif
 
 // Where on the film a sample lies, in pixels: the filter is sampled in proportion to its value.
 vec2 film_position(SlotPlace place, SampleKey key)
@@ -19,6 +23,17 @@ vec2 film_position(SlotPlace place, SampleKey key)
     return vec2(place.pixel) + 0.5 + offset * frame.filter_radius;
 }
 
+#ifdef MOVING_CAMERA
+// A camera that moves makes its rays in its own space.
+CameraRay camera_ray_in_world(CameraRay ray)
+{
+    Place place = motion_place(motion_fetch(frame.camera_motion), path_time);
+    ray.origin = affine_point(place.row0, place.row1, place.row2, ray.origin);
+    ray.direction = normalize(affine_vector(place.row0, place.row1, place.row2, ray.direction));
+    return ray;
+}
+#endif
+
 void main()
 {
     uint slot = interleaved_group() * WORKGROUP + gl_LocalInvocationIndex;
@@ -34,6 +49,10 @@ void main()
     SlotPlace place = slot_place(slot);
     SampleKey key = sample_key(place.pixel, place.sample_index, frame.seed, frame.strata);
     CameraRay ray = camera_sample(film_position(place, key) / vec2(frame.film_size), key);
+#ifdef MOVING_CAMERA
+    time_begin(key);
+    ray = camera_ray_in_world(ray);
+#endif
     ray_store(slot, WaveRay(ray.origin, ray.width, ray.direction, ray.spread));
     Path path = Path(ray.weight, 0.0, vec3(0.0), 0u, 0u, 0u, frame.camera_medium, 1.0, key);
     path_store(slot, path);

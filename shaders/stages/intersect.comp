@@ -6,6 +6,9 @@ void main()
 {
     uint slot = queue_take(QUEUE_PATHS).slot;
     if (slot == NONE) return;
+#ifdef HAS_TIME
+    time_begin(path_key(slot));
+#endif
     WaveRay ray = ray_load(slot);
     uvec4 before = fetch_hits(slot);
     Hit nearest = Hit(FAR, NONE, NONE);

@@ -67,8 +67,7 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     if (front || (shining.flags & MATERIAL_TWO_SIDED) != 0u) {
         // What a bounce finds is what light sampling would have found: lamps are sampled at points
         emitted = material_emission(shining, path.pdf > 0.0 ? sharp(context) : context);
-        float pdf = 0.0;
-        if (path.pdf > 0.0 && surface.light != NONE) pdf = light_pdf(surface.light, ray.origin, surface.position, surface.geometric);
+        float pdf = path.pdf > 0.0 && surface.light != NONE ? light_pdf(surface.light, ray.origin, surface.position, surface.geometric) : 0.0;
         add_emission(path, emitted, pdf);
     }
     if (bsdf.kind == MATERIAL_UNLIT) path.radiance += limited(path.throughput * bsdf.color, path.depth);
@@ -98,6 +97,7 @@ void main()
     uvec4 hit = fetch_hits(slot);
     WaveRay ray = ray_load(slot);
     Path path = path_load(slot);
+    time_begin(path.key);
     bool goes_on = hit.w >= HIT_LONG || (path.flags & PATH_WAITS) != 0u;
     if (!goes_on) {
         goes_on = shade(slot, path, ray, hit, taken.next_half);

@@ -9,6 +9,9 @@ void main()
     Taken taken = queue_take(QUEUE_SHADOWS);
     uint slot = taken.slot;
     if (slot == NONE) return;
+#ifdef HAS_TIME
+    time_begin(path_key(slot));
+#endif
     uvec4 a = fetch_shadows(slot * SHADOW_WORDS);
     uvec4 b = fetch_shadows(slot * SHADOW_WORDS + 1u);
     uvec4 c = fetch_shadows(slot * SHADOW_WORDS + 2u);

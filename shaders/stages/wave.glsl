@@ -1,6 +1,7 @@
 // The wave of paths: which slot is which pixel and sample, and the state of a path.
 #include "stages/queue.glsl"
 #include "base/random.glsl"
+#include "base/time.glsl"
 
 // Slots are ordered by tile, then sample, then pixel of the tile in Morton order.
 struct SlotPlace { uvec2 pixel; uint sample_index; bool inside; };
@@ -63,6 +64,21 @@ void path_store(uint slot, Path p)
 void path_store_medium(uint slot, Path p)
 {
     store_paths(slot * PATH_WORDS + 2u, uvec4(p.medium, floatBitsToUint(p.eta_scale), p.key.pixel, p.key.index));
+}
+
+// The key of the path of a slot.
+SampleKey path_key(uint slot)
+{
+    uvec4 c = fetch_paths(slot * PATH_WORDS + 2u);
+    return SampleKey(c.z, c.w, frame.strata);
+}
+
+// Sets `path_time`. The time of a path is a function of its key.
+void time_begin(SampleKey key)
+{
+#ifdef HAS_TIME
+    path_time = sample_1d(key, DIMENSION_TIME);
+#endif
 }
 
 // Of the decisions at surfaces that let some rays through, the same until the path has its next event.

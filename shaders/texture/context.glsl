@@ -1,4 +1,5 @@
 // What a texture may depend on.
+#include "base/time.glsl"
 
 struct TextureContext {
     vec3 position;          // in world space
@@ -12,8 +13,8 @@ struct TextureContext {
     float time;             // in the shutter interval, 0..1
 };
 
-// A point without a size, where world and object space are one.
+// A point without a size at the time of the path, where world and object space are one.
 TextureContext context_at(vec3 position, vec2 uv, vec3 normal)
 {
-    return TextureContext(position, position, uv, normal, normal, 0.0, 0.0, vec2(0.0), 0.0);
+    return TextureContext(position, position, uv, normal, normal, 0.0, 0.0, vec2(0.0), path_time);
 }

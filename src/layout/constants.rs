@@ -107,6 +107,10 @@ constants! {
     INSTANCE_SPHERE = 2;
     /// Instance kind: unit disk.
     INSTANCE_DISK = 3;
+    /// Instance flag: the mesh has no uv, so that it is (0,0), (1,0), (1,1) on every triangle.
+    INSTANCE_DEFAULT_UV = 1;
+    /// Instance flag: each triangle is a light of its own; else they are one light together.
+    INSTANCE_TRIANGLE_LIGHTS = 2;
     /// Material kind: colour is radiance.
     MATERIAL_UNLIT = 0;
     /// Material kind: Lambertian.

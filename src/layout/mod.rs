@@ -11,6 +11,7 @@ mod bindings;
 mod constants;
 mod glsl;
 mod lens;
+mod motion;
 mod patterns;
 mod records;
 mod textures;
@@ -19,6 +20,7 @@ pub use bindings::{BINDINGS, Backend, Binding, BindingKind, bindings_glsl};
 pub use constants::*;
 pub use glsl::layout_glsl;
 pub use lens::{LensInterface, OpeningCell, PupilBounds};
+pub use motion::Motion;
 pub use patterns::*;
 pub use records::*;
 pub use textures::*;
@@ -84,7 +86,7 @@ impl RecordInfo {
 
 /// Every record, in the order of `layout.glsl`.
 pub fn records() -> impl Iterator<Item = &'static RecordInfo> {
-    [records::ALL, textures::ALL, patterns::ALL, lens::ALL].into_iter().flatten()
+    [records::ALL, textures::ALL, patterns::ALL, lens::ALL, motion::ALL].into_iter().flatten()
 }
 
 #[cfg(test)]

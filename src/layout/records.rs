@@ -51,8 +51,8 @@ records! {
         pupil_scale: f32,
         /// half the angle of a fisheye in radians; equisolid: the sine of half of that
         fisheye_scale: f32,
-        /// room
-        camera_spare: f32,
+        /// first word of `instances` with the motion of the camera, whose own fields are then those of camera space
+        camera_motion: u32,
         /// corners of the aperture; 0 = circle
         blades: u32,
         /// rotation of the aperture, radians
@@ -207,12 +207,12 @@ records! {
         world_row2: [f32; 4],
         /// 1, or -1 when the map to the world mirrors
         handedness: f32,
-        /// 1 when each triangle is a light of its own, 0 when they are one light together
-        light_stride: u32,
+        /// first word of `instances` with its Motion, or NONE
+        motion: u32,
         /// Face of its first triangle, or NONE for flat triangles without uv
         first_face: u32,
-        /// 1 when the mesh has no uv: then it is (0,0), (1,0), (1,1) on every triangle
-        default_uv: u32,
+        /// INSTANCE_… flags
+        flags: u32,
     }
 
     /// What a material is. Its inputs follow.

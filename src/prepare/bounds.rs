@@ -31,6 +31,20 @@ impl Bounds {
         self.max = self.max.max(other.max);
     }
 
+    /// Its eight corners.
+    pub fn corners(&self) -> impl Iterator<Item = Vec3> + use<> {
+        let (min, max) = (self.min, self.max);
+        (0..8).map(move |i| {
+            let pick = |bit: u32, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };
+            Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2))
+        })
+    }
+
+    /// The box with more on every side.
+    pub fn grown(&self, margin: f32) -> Self {
+        Self { min: self.min - margin, max: self.max + margin }
+    }
+
     /// Distance of a point from the box; 0 inside.
     pub fn distance(&self, p: Vec3) -> f32 {
         (self.min - p).max(p - self.max).max(Vec3::ZERO).length()
@@ -59,9 +73,8 @@ pub(super) fn bounds_of(triangles: &[Triangle]) -> Bounds {
 
 pub(super) fn transformed(bounds: &Bounds, map: &Affine3A) -> Bounds {
     let mut out = Bounds::default();
-    for i in 0..8 {
-        let pick = |bit: u32, axis: usize| if i & bit == 0 { bounds.min[axis] } else { bounds.max[axis] };
-        out.add(map.transform_point3(Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2))));
+    for corner in bounds.corners() {
+        out.add(map.transform_point3(corner));
     }
     widened(out)
 }

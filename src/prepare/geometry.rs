@@ -1,28 +1,29 @@
 //! Shapes and meshes to instances, triangles and trees.
 //!
-//! What is placed once goes into one tree in world space (the soup); a mesh that is placed several times gets a tree of
-//! its own. A tree over instances stands above them, unless the soup is all there is.
+//! What is placed once goes into one tree in world space (the soup); a mesh that is placed several times, or moves, gets a
+//! tree of its own. A tree over instances stands above them, unless the soup is all there is.
 
 use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
+use super::motion::{Motion, bounds_over_time};
+use super::places::{check_sizes, shape_frame};
 use super::triangles::{Extras, mirrors, push_triangles};
 use super::wide::Leaves;
 use super::{Prepared, rows};
 use crate::layout::{
-    INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE, Instance, LEAF, LEAF_FIRST_MASK,
-    LEAF_INSTANCE, NONE, Triangle,
+    self, INSTANCE_DEFAULT_UV, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE,
+    INSTANCE_TRIANGLE_LIGHTS, Instance, LEAF, LEAF_FIRST_MASK, LEAF_INSTANCE, NONE, Record, Triangle,
 };
-use crate::scene::{Handle, Mesh, Scene, Shape, ShapeKind};
+use crate::scene::{Handle, Mesh, Scene, ShapeKind};
 use crate::{Error, Result};
-use glam::{Affine3A, Mat3A, Vec3};
+use glam::{Affine3A, Vec3};
 
 /// Most triangles a leaf holds.
 const TRIANGLES_A_LEAF: u32 = 4;
 
-/// Largest and smallest axes of spheres, disks and meshes with a tree of their own: the squares of both, and of what
-/// divides by them, are floats.
-const LARGEST: f64 = 5e18;
-const SMALLEST: f64 = 2e-19;
+/// Boxes around the unit sphere and the unit disk.
+const SPHERE: Bounds = Bounds { min: Vec3::NEG_ONE, max: Vec3::ONE };
+const DISK: Bounds = Bounds { min: Vec3::new(-1.0, -1.0, 0.0), max: Vec3::new(1.0, 1.0, 0.0) };
 
 /// Where a thing that may shine went: for the table of lights.
 pub(super) struct Placed {
@@ -32,8 +33,10 @@ pub(super) struct Placed {
     pub source: Source,
     /// Its map to world space.
     pub world_from_object: Affine3A,
-    /// Its bounds in the world.
+    /// Its bounds in the world, at all times.
     pub bounds: Bounds,
+    /// Whether it moves: it then is no light that is sampled.
+    pub moves: bool,
 }
 
 /// Where an instance comes from in the scene.
@@ -53,75 +56,199 @@ struct MeshTree {
     first_face: u32,
 }
 
-/// Fills tree, faces, vertices, instances, root, bounds.
+/// What has been placed so far.
+struct Placing<'a> {
+    scene: &'a Scene,
+    placed: Vec<Placed>,
+    /// Triangles in world space.
+    soup: Vec<Triangle>,
+    /// What the tree over instances holds, beside the soup.
+    tops: Vec<(u32, Bounds)>,
+    /// Motions and the instances that they are of.
+    motions: Vec<(u32, layout::Motion)>,
+    /// Of the trees of meshes.
+    deepest: u32,
+}
+
+/// Fills tree, faces, vertices, instances, motions, root, bounds.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> {
-    let mut placed = Vec::new();
     let mut uses = vec![0_u32; scene.meshes.len()];
     for instance in &scene.instances {
         uses[instance.mesh.index()] += 1;
     }
-    let mut soup = Vec::new();
-    for (i, shape) in scene.shapes.iter().enumerate() {
-        let world_from_object = shape_frame(shape);
-        let kind = match shape.kind {
-            ShapeKind::Sphere { .. } => INSTANCE_SPHERE,
-            ShapeKind::Disk { .. } => INSTANCE_DISK,
-            ShapeKind::Quad { .. } => INSTANCE_SOUP,
-        };
-        let instance = out.push_instance(kind, world_from_object, shape.material.index() as u32);
-        if kind != INSTANCE_SOUP {
-            check_size(&shape.name, &world_from_object)?;
-        }
-        let bounds = match shape.kind {
-            ShapeKind::Sphere { .. } => ellipsoid_bounds(&world_from_object),
-            ShapeKind::Disk { .. } => disk_bounds(&world_from_object),
-            ShapeKind::Quad { .. } => {
-                let (first, mesh) = (soup.len(), Mesh::square());
-                let extras = Extras::of(scene, &mesh, [shape.material]);
-                let face = push_triangles(&mesh, &world_from_object, Some(instance), &extras, out, &mut soup);
-                out.instances[instance as usize].first_face = face;
-                bounds_of(&soup[first..])
-            }
-        };
-        placed.push(Placed { instance, source: Source::Shape(i), world_from_object, bounds });
+    let mut placing = Placing {
+        scene,
+        placed: Vec::new(),
+        soup: Vec::new(),
+        tops: Vec::new(),
+        motions: Vec::new(),
+        deepest: 0,
+    };
+    for i in 0..scene.shapes.len() {
+        placing.shape(i, out)?;
     }
     let mut trees: Vec<Option<MeshTree>> = vec![None; scene.meshes.len()];
     for (i, instance) in scene.instances.iter().enumerate() {
-        let (mesh, map) = (&scene.meshes[instance.mesh], instance.world_from_object);
-        let once = uses[instance.mesh.index()] == 1;
-        let kind = if once { INSTANCE_SOUP } else { INSTANCE_MESH };
-        let index = out.push_instance(kind, map, instance.material.index() as u32);
-        if !once {
-            check_size(&instance.name, &map)?;
-        }
-        out.instances[index as usize].light_stride = 1;
-        out.instances[index as usize].default_uv = u32::from(mesh.uvs.is_empty());
-        let bounds = if once {
-            let first = soup.len();
-            let extras = Extras::of(scene, mesh, [instance.material]);
-            let face = push_triangles(mesh, &map, Some(index), &extras, out, &mut soup);
-            out.instances[index as usize].first_face = face;
-            bounds_of(&soup[first..])
-        } else {
-            let tree = match trees[instance.mesh.index()] {
-                Some(tree) => tree,
-                None => *trees[instance.mesh.index()].insert(mesh_tree(scene, instance.mesh, out)?),
-            };
-            out.instances[index as usize].root = tree.root;
-            out.instances[index as usize].first_face = tree.first_face;
-            transformed(&tree.bounds, &map)
-        };
-        placed.push(Placed { instance: index, source: Source::Mesh(i), world_from_object: map, bounds });
+        let mesh = instance.mesh.index();
+        placing.mesh(i, uses[mesh] == 1, &mut trees[mesh], out)?;
     }
-    build_top(scene, soup, &trees, out)?;
+    let Placing { placed, soup, tops, motions, deepest, .. } = placing;
+    build_top(soup, tops, deepest, out)?;
+    push_motions(scene, motions, out)?;
     Ok(placed)
 }
 
+impl Placing<'_> {
+    fn shape(&mut self, i: usize, out: &mut Prepared) -> Result<()> {
+        let shape = &self.scene.shapes[i];
+        let (frame, map) = (shape.kind.frame(), shape_frame(shape));
+        let motion = Motion::between(&shape.name, &shape.world_from_object, shape.at_close.as_ref())?;
+        let kind = match shape.kind {
+            ShapeKind::Sphere { .. } => INSTANCE_SPHERE,
+            ShapeKind::Disk { .. } => INSTANCE_DISK,
+            ShapeKind::Quad { .. } if motion.is_some() => INSTANCE_MESH,
+            ShapeKind::Quad { .. } => INSTANCE_SOUP,
+        };
+        let instance = out.push_instance(kind, map, shape.material.index() as u32);
+        if kind != INSTANCE_SOUP {
+            let close = shape.at_close.map(|close| close * frame);
+            check_sizes(&shape.name, &map, close.as_ref())?;
+        }
+        let bounds = match shape.kind {
+            ShapeKind::Sphere { .. } => {
+                bounds_over_time(motion.as_ref(), &frame, &map, &SPHERE, ellipsoid_bounds)
+            }
+            ShapeKind::Disk { .. } => bounds_over_time(motion.as_ref(), &frame, &map, &DISK, disk_bounds),
+            ShapeKind::Quad { .. } => {
+                let mesh = Mesh::square();
+                let extras = Extras::of(self.scene, &mesh, [shape.material]);
+                if motion.is_some() {
+                    let tree = tree_of(&mesh, &extras, out)?;
+                    self.stand(instance, &tree, out);
+                    let place = |map: &Affine3A| transformed(&tree.bounds, map);
+                    bounds_over_time(motion.as_ref(), &frame, &map, &tree.bounds, place)
+                } else {
+                    self.bake(instance, &mesh, &map, &extras, out)
+                }
+            }
+        };
+        self.place(
+            Placed {
+                instance,
+                source: Source::Shape(i),
+                world_from_object: map,
+                bounds,
+                moves: motion.is_some(),
+            },
+            out,
+        );
+        self.motions.extend(motion.map(|motion| (instance, motion.record(&frame))));
+        Ok(())
+    }
+
+    fn mesh(&mut self, i: usize, once: bool, tree: &mut Option<MeshTree>, out: &mut Prepared) -> Result<()> {
+        let instance = &self.scene.instances[i];
+        let (mesh, map) = (&self.scene.meshes[instance.mesh], instance.world_from_object);
+        let motion = Motion::between(&instance.name, &map, instance.at_close.as_ref())?;
+        let bakes = once && motion.is_none();
+        let kind = if bakes { INSTANCE_SOUP } else { INSTANCE_MESH };
+        let index = out.push_instance(kind, map, instance.material.index() as u32);
+        if !bakes {
+            check_sizes(&instance.name, &map, instance.at_close.as_ref())?;
+        }
+        let uv = if mesh.uvs.is_empty() { INSTANCE_DEFAULT_UV } else { 0 };
+        out.instances[index as usize].flags = INSTANCE_TRIANGLE_LIGHTS | uv;
+        let bounds = if bakes {
+            let extras = Extras::of(self.scene, mesh, [instance.material]);
+            self.bake(index, mesh, &map, &extras, out)
+        } else {
+            let tree = match tree {
+                Some(tree) => *tree,
+                None => *tree.insert(mesh_tree(self.scene, instance.mesh, out)?),
+            };
+            self.stand(index, &tree, out);
+            let place = |map: &Affine3A| transformed(&tree.bounds, map);
+            bounds_over_time(motion.as_ref(), &Affine3A::IDENTITY, &map, &tree.bounds, place)
+        };
+        self.place(
+            Placed {
+                instance: index,
+                source: Source::Mesh(i),
+                world_from_object: map,
+                bounds,
+                moves: motion.is_some(),
+            },
+            out,
+        );
+        self.motions.extend(motion.map(|motion| (index, motion.record(&Affine3A::IDENTITY))));
+        Ok(())
+    }
+
+    /// Puts a mesh into world space.
+    fn bake(
+        &mut self,
+        instance: u32,
+        mesh: &Mesh,
+        map: &Affine3A,
+        extras: &Extras,
+        out: &mut Prepared,
+    ) -> Bounds {
+        let first = self.soup.len();
+        let face = push_triangles(mesh, map, Some(instance), extras, out, &mut self.soup);
+        out.instances[instance as usize].first_face = face;
+        bounds_of(&self.soup[first..])
+    }
+
+    /// Gives an instance its tree.
+    fn stand(&mut self, instance: u32, tree: &MeshTree, out: &mut Prepared) {
+        out.instances[instance as usize].root = tree.root;
+        out.instances[instance as usize].first_face = tree.first_face;
+        self.deepest = self.deepest.max(tree.depth);
+    }
+
+    fn place(&mut self, placed: Placed, out: &Prepared) {
+        let instance = &out.instances[placed.instance as usize];
+        let in_tree = match instance.kind {
+            INSTANCE_SOUP => false,
+            INSTANCE_MESH => instance.root != NONE,
+            _ => true,
+        };
+        if in_tree {
+            self.tops.push((placed.instance, placed.bounds));
+        }
+        self.placed.push(placed);
+    }
+}
+
+/// Motions come after the instances, that of the camera last.
+fn push_motions(scene: &Scene, motions: Vec<(u32, layout::Motion)>, out: &mut Prepared) -> Result<()> {
+    out.features.moves = !motions.is_empty();
+    let first = out.instances.len() as u32 * layout::Instance::WORDS;
+    for (instance, motion) in motions {
+        out.instances[instance as usize].motion = first + out.motions.len() as u32 * layout::Motion::WORDS;
+        out.motions.push(motion);
+    }
+    let camera = &scene.camera;
+    let close = camera.world_from_camera_at_close();
+    if let Some(motion) = Motion::between("the camera", &camera.world_from_camera(), close.as_ref())? {
+        out.camera_motion = first + out.motions.len() as u32 * layout::Motion::WORDS;
+        out.motions.push(motion.record(&Affine3A::IDENTITY));
+        out.features.camera_moves = true;
+    }
+    Ok(())
+}
+
 fn mesh_tree(scene: &Scene, handle: Handle<Mesh>, out: &mut Prepared) -> Result<MeshTree> {
-    let (mesh, mut triangles) = (&scene.meshes[handle], Vec::new());
+    let mesh = &scene.meshes[handle];
     let instances = scene.instances.iter().filter(|instance| instance.mesh == handle);
     let extras = Extras::of(scene, mesh, instances.map(|instance| instance.material));
-    let first_face = push_triangles(mesh, &Affine3A::IDENTITY, None, &extras, out, &mut triangles);
+    tree_of(mesh, &extras, out)
+}
+
+/// The tree of a mesh in object space.
+fn tree_of(mesh: &Mesh, extras: &Extras, out: &mut Prepared) -> Result<MeshTree> {
+    let mut triangles = Vec::new();
+    let first_face = push_triangles(mesh, &Affine3A::IDENTITY, None, extras, out, &mut triangles);
     let bounds = bounds_of(&triangles);
     let (root, depth) = out.push_tree(triangles)?;
     Ok(MeshTree { root, depth, bounds, first_face })
@@ -129,13 +256,11 @@ fn mesh_tree(scene: &Scene, handle: Handle<Mesh>, out: &mut Prepared) -> Result<
 
 /// The soup's tree, and the tree over instances when there is more than the soup.
 fn build_top(
-    scene: &Scene,
     soup: Vec<Triangle>,
-    trees: &[Option<MeshTree>],
+    tops: Vec<(u32, Bounds)>,
+    mut deepest: u32,
     out: &mut Prepared,
 ) -> Result<()> {
-    let mut tops: Vec<(u32, Bounds)> = Vec::new();
-    let mut deepest = trees.iter().flatten().map(|tree| tree.depth).max().unwrap_or(0);
     let soup_bounds = bounds_of(&soup);
     let soup_root = if soup.is_empty() {
         None
@@ -144,22 +269,6 @@ fn build_top(
         deepest = deepest.max(depth);
         Some(root)
     };
-    for (i, instance) in out.instances.iter().enumerate() {
-        let map = world_from_object(instance);
-        match instance.kind {
-            INSTANCE_SPHERE => tops.push((i as u32, ellipsoid_bounds(&map))),
-            INSTANCE_DISK => tops.push((i as u32, disk_bounds(&map))),
-            _ => {}
-        }
-    }
-    let meshes = scene.instances.iter().zip(scene.shapes.len()..);
-    for (instance, index) in meshes {
-        if let Some(tree) = &trees[instance.mesh.index()]
-            && tree.root != NONE
-        {
-            tops.push((index as u32, transformed(&tree.bounds, &instance.world_from_object)));
-        }
-    }
     for (_, bounds) in &tops {
         out.bounds.join(bounds);
     }
@@ -240,9 +349,9 @@ impl Prepared {
             world_row1: world[1],
             world_row2: world[2],
             handedness: if mirrors(&world_from_object) { -1.0 } else { 1.0 },
-            light_stride: 0,
+            motion: NONE,
             first_face: NONE,
-            default_uv: 0,
+            flags: 0,
         });
         self.instances.len() as u32 - 1
     }
@@ -277,35 +386,6 @@ impl Prepared {
         self.bvh_cost = self.bvh_cost.max(tree.cost);
         Ok((tree.root, tree.depth))
     }
-}
-
-/// Refuses what is so large or small that kernels, which square lengths in the object's space, leave the range of floats.
-fn check_size(name: &str, map: &Affine3A) -> Result<()> {
-    let world = map.as_daffine3().matrix3;
-    let longest = |m: glam::DMat3| m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
-    let (largest, smallest) = (longest(world), 1.0 / longest(world.inverse()));
-    let refuse = |size: f64, what: &str, next: &str| {
-        Err(Error::scene(format!("{name} has a size of {size:.1e}, too {what} for 32-bit floats")).help(next))
-    };
-    if largest > LARGEST {
-        return refuse(largest, "large", "scale the scene down");
-    }
-    if smallest < SMALLEST || smallest.is_nan() {
-        return refuse(smallest, "small", "scale the scene up, or leave it out");
-    }
-    Ok(())
-}
-
-/// From the unit sphere, disk or square of the kernels to the world.
-pub(super) fn shape_frame(shape: &Shape) -> Affine3A {
-    shape.world_from_object * shape.kind.frame()
-}
-
-fn world_from_object(instance: &Instance) -> Affine3A {
-    let rows = [instance.world_row0, instance.world_row1, instance.world_row2].map(glam::Vec4::from);
-    let linear =
-        Mat3A::from_cols(rows[0].truncate().into(), rows[1].truncate().into(), rows[2].truncate().into());
-    Affine3A { matrix3: linear.transpose(), translation: Vec3::new(rows[0].w, rows[1].w, rows[2].w).into() }
 }
 
 #[cfg(test)]

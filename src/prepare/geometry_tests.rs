@@ -42,7 +42,13 @@ fn scene(triangles: u32, copies: u32, soup: bool) -> Scene {
     for i in 0..copies {
         // Each is as far again as all before: the tree over them is as deep as it can be
         let world_from_object = Affine3A::from_translation(Vec3::X * 1.5_f32.powi(i as i32));
-        scene.instances.push(Instance { name: String::new(), mesh: shared, material, world_from_object });
+        scene.instances.push(Instance {
+            name: String::new(),
+            mesh: shared,
+            material,
+            world_from_object,
+            at_close: None,
+        });
     }
     if soup {
         let once = scene.meshes.add("once", mesh(5));
@@ -51,6 +57,7 @@ fn scene(triangles: u32, copies: u32, soup: bool) -> Scene {
             mesh: once,
             material,
             world_from_object: Affine3A::IDENTITY,
+            at_close: None,
         });
     }
     scene

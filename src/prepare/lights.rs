@@ -18,6 +18,11 @@ struct Entry {
     power: Option<f64>,
 }
 
+/// Where the camera is, at both ends of its motion.
+pub(super) fn camera_positions(scene: &Scene) -> impl Iterator<Item = Vec3> {
+    std::iter::once(scene.camera.position).chain(scene.camera.at_close.map(|stand| stand.position))
+}
+
 /// The box around all that is lit: the camera, which sees lamps, and what does not shine all over.
 pub(super) fn receivers(scene: &Scene, placed: &[Placed]) -> Bounds {
     let dark = |material| scene.materials[material].emission.is_none();
@@ -30,7 +35,8 @@ pub(super) fn receivers(scene: &Scene, placed: &[Placed]) -> Bounds {
                 || parts.is_empty() && dark(instance.material)
         }
     };
-    let mut bounds = Bounds { min: scene.camera.position, max: scene.camera.position };
+    let mut bounds = Bounds::default();
+    camera_positions(scene).for_each(|position| bounds.add(position));
     placed.iter().filter(is_lit).for_each(|place| bounds.join(&place.bounds));
     bounds
 }
@@ -50,11 +56,18 @@ fn brought(entry: &Entry, receivers: &Bounds) -> f64 {
     entry.power.unwrap_or(0.0) / PI / least
 }
 
+/// What a lamp brings to a path that finds it by chance: its radiance.
+fn whole(entry: &Entry) -> f64 {
+    entry.power.unwrap_or(0.0) / PI / f64::from(entry.light.b).max(f64::MIN_POSITIVE)
+}
+
 /// Fills `lights`, the light of each instance, and the chance of the environment. Gives the radiance that lamps with a
 /// surface bring to a white surface among `receivers`, at most.
 ///
 /// Light from infinity has no power that compares with that of lamps: each distant light and the environment get the same
 /// chance as all lamps together (pbrt-v4, section 12.6.3, treats infinite lights alike).
+///
+/// Lamps that move are not in the table: paths find them by chance, and count all of what they send out.
 pub(super) fn prepare(
     scene: &Scene,
     textures: &References,
@@ -62,17 +75,19 @@ pub(super) fn prepare(
     receivers: &Bounds,
     out: &mut Prepared,
 ) -> f64 {
-    let mut entries = Vec::new();
+    let (mut entries, mut found) = (Vec::new(), Vec::new());
     for place in placed {
         let first = entries.len();
+        let entries = if place.moves { &mut found } else { &mut entries };
         match place.source {
-            Source::Shape(i) => push_shape(scene, i, &place.world_from_object, textures, &mut entries),
-            Source::Mesh(i) => push_mesh(scene, i, &place.world_from_object, textures, &mut entries),
+            Source::Shape(i) => push_shape(scene, i, &place.world_from_object, textures, entries),
+            Source::Mesh(i) => push_mesh(scene, i, &place.world_from_object, textures, entries),
         }
-        if entries.len() > first {
+        if !place.moves && entries.len() > first {
             out.instances[place.instance as usize].light = first as u32;
         }
     }
+    let found = found.iter().map(whole).fold(0.0, f64::max);
     entries.extend(scene.lights.iter().map(punctual));
     let environment = scene.environment.is_some();
     let lamps = entries.iter().filter_map(|entry| entry.power).sum::<f64>();
@@ -92,9 +107,9 @@ pub(super) fn prepare(
         for instance in &mut out.instances {
             instance.light = NONE;
         }
-        return 0.0;
+        return found;
     }
-    let brought = entries.iter().map(|entry| brought(entry, receivers)).sum();
+    let brought = entries.iter().map(|entry| brought(entry, receivers)).sum::<f64>().max(found);
     for (entry, slot) in entries.into_iter().zip(alias::table(&weights)) {
         out.features.light_kinds |= 1 << entry.light.kind;
         let chance = slot.chance * (1.0 - out.environment_chance);

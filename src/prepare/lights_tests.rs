@@ -32,7 +32,8 @@ fn stripes(triangles: u32, parts: u32) -> Scene {
     };
     let mesh = scene.meshes.add("stripes", mesh);
     let world_from_object = Affine3A::IDENTITY;
-    scene.instances.push(Instance { name: String::new(), mesh, material: dark, world_from_object });
+    let (name, at_close) = (String::new(), None);
+    scene.instances.push(Instance { name, mesh, material: dark, world_from_object, at_close });
     scene
 }
 

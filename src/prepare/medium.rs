@@ -1,6 +1,6 @@
 //! What the camera is inside of: paths begin in that glass.
 
-use super::geometry::shape_frame;
+use super::places::shape_frame;
 use super::triangles::part_materials;
 use crate::layout::NONE;
 use crate::scene::{Handle, Instance, Material, Scene, Shape, ShapeKind, Surface};

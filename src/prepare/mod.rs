@@ -14,6 +14,8 @@ pub mod lens;
 mod lights;
 mod materials;
 mod medium;
+mod motion;
+mod places;
 mod pyramid;
 mod tangents;
 mod textures;
@@ -30,7 +32,7 @@ pub use variant::{Stage, defines, stack_size};
 pub use wide::{Leaves, Tree};
 
 use crate::Result;
-use crate::layout::{Detail, EnvironmentCell, Face, Instance, Item, Light, Material, Vertex};
+use crate::layout::{Detail, EnvironmentCell, Face, Instance, Item, Light, Material, Motion, Vertex};
 use crate::scene::Scene;
 
 /// Everything that the kernels need of a scene, as plain records in the order of the bindings.
@@ -48,6 +50,10 @@ pub struct Prepared {
     pub vertices: Vec<Vertex>,
     /// Shapes and meshes in the world.
     pub instances: Vec<Instance>,
+    /// How those of them move that do, and the camera.
+    pub motions: Vec<Motion>,
+    /// Word behind the instances with the motion of the camera, or NONE.
+    pub camera_motion: u32,
     /// Materials, indexed as in the scene.
     pub materials: Vec<Material>,
     /// What they do to the surfaces themselves, indexed alike.
@@ -98,6 +104,7 @@ impl Prepared {
             size_of_val(self.faces.as_slice()),
             size_of_val(self.vertices.as_slice()),
             size_of_val(self.instances.as_slice()),
+            size_of_val(self.motions.as_slice()),
             size_of_val(self.materials.as_slice()),
             size_of_val(self.details.as_slice()),
             size_of_val(self.textures.as_slice()),
@@ -164,6 +171,12 @@ pub struct Features {
     pub medium: bool,
     /// A texture that depends on the width of a pixel.
     pub footprint: bool,
+    /// A texture that depends on the time.
+    pub timed_textures: bool,
+    /// Things that move.
+    pub moves: bool,
+    /// A camera that moves.
+    pub camera_moves: bool,
 }
 
 /// Prepares a scene.
@@ -176,6 +189,7 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
         root: crate::layout::NONE,
         environment_texture: crate::layout::NONE,
         camera_medium: crate::layout::NONE,
+        camera_motion: crate::layout::NONE,
         ..Prepared::default()
     };
     let textures = textures::prepare(scene, &mut out)?;

@@ -41,8 +41,9 @@ pub(super) fn choose(
     let unit = (exponent(brightest) - STEPS_TO_BRIGHTEST).min(exponent(lit) - STEPS_TO_LIT);
     out.radiance_exponent = unit.clamp(-60, 60);
     let size = out.bounds.diagonal();
+    let middle = 0.5 * (out.bounds.min + out.bounds.max);
     let away = if size > 0.0 {
-        scene.camera.position.distance(0.5 * (out.bounds.min + out.bounds.max))
+        super::lights::camera_positions(scene).map(|position| position.distance(middle)).fold(0.0, f32::max)
     } else {
         0.0
     };

@@ -1,6 +1,6 @@
 //! Which switches a kernel is compiled with, for a scene.
 
-use super::Prepared;
+use super::{Features, Prepared};
 use crate::layout::{
     Backend, INPUT_EMISSION, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT,
     LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG,
@@ -153,6 +153,16 @@ fn camera(scene: &Scene, set: &mut impl FnMut(&str, String)) {
     flag("LENS_SHAPE", system.is_some_and(|lens| opening > 0 || lens.opening.anamorphic != 1.0));
 }
 
+/// Whether what a stage does depends on the time of a path.
+fn has_time(features: &Features, stage: Stage) -> bool {
+    match stage {
+        Stage::Camera => features.camera_moves,
+        Stage::Shade => features.moves || features.camera_moves || features.timed_textures,
+        _ if stage.traverses() => features.moves || features.opacity && features.timed_textures,
+        _ => false,
+    }
+}
+
 /// The switches of a stage: only those that its files ask for, so that a scene edit compiles only what it touches.
 pub fn defines(
     scene: &Scene,
@@ -168,7 +178,8 @@ pub fn defines(
     // Every stage of the wave includes the random numbers.
     for (i, (name, sampler)) in SAMPLERS.iter().enumerate() {
         set(name, i.to_string());
-        if *sampler == scene.render.sampler && matches!(stage, Stage::Camera | Stage::Shade) {
+        let draws = matches!(stage, Stage::Camera | Stage::Shade) || has_time(&prepared.features, stage);
+        if *sampler == scene.render.sampler && draws {
             set("SAMPLER", i.to_string());
         }
     }
@@ -187,6 +198,9 @@ pub fn defines(
             _ = all.insert(name.to_owned(), "1".to_owned());
         }
     };
+    flag("HAS_TIME", has_time(features, stage));
+    flag("HAS_MOTION", features.moves && (stage.traverses() || stage == Stage::Shade));
+    flag("MOVING_CAMERA", features.camera_moves && matches!(stage, Stage::Camera | Stage::Shade));
     flag("PARKING", matches!(stage, Stage::IntersectLong | Stage::ShadowLong));
     if stage.traverses() || stage == Stage::Shade {
         flag("HAS_INSTANCES", features.instances);

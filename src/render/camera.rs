@@ -3,20 +3,23 @@
 use crate::layout::Frame;
 use crate::prepare::Prepared;
 use crate::scene::{FisheyeMapping, Focus, LensCamera, Projection, Scene, half_height};
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 
 /// The fields of the camera; the others are 0.
 pub(super) fn of_scene(scene: &Scene, prepared: &Prepared) -> Frame {
     let camera = &scene.camera;
-    let world = camera.world_from_camera().matrix3;
+    // A camera that moves makes its rays in its own space
+    let moves = prepared.features.camera_moves;
+    let world = if moves { Affine3A::IDENTITY } else { camera.world_from_camera() };
     let aspect = scene.film.width as f32 / scene.film.height as f32;
     let half_y = half_of_picture(&camera.projection, aspect);
     let opening = camera.opening().unwrap_or_default();
     let placed = Frame {
-        camera_right: Vec3::from(world.x_axis).to_array(),
-        camera_up: Vec3::from(world.y_axis).to_array(),
-        camera_back: Vec3::from(world.z_axis).to_array(),
-        camera_position: camera.position.to_array(),
+        camera_right: Vec3::from(world.matrix3.x_axis).to_array(),
+        camera_up: Vec3::from(world.matrix3.y_axis).to_array(),
+        camera_back: Vec3::from(world.matrix3.z_axis).to_array(),
+        camera_position: Vec3::from(world.translation).to_array(),
+        camera_motion: prepared.camera_motion,
         half_x: half_y * aspect,
         half_y,
         blades: opening.blades,

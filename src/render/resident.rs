@@ -22,7 +22,8 @@ impl Resident {
         };
         put("tree", bytemuck::cast_slice(&std::mem::take(&mut prepared.tree)))?;
         put("faces", bytemuck::cast_slice(&std::mem::take(&mut prepared.faces)))?;
-        put("instances", bytemuck::cast_slice(&prepared.instances))?;
+        let instances: &[u8] = bytemuck::cast_slice(&prepared.instances);
+        put("instances", &[instances, bytemuck::cast_slice(&prepared.motions)].concat())?;
         put("vertices", bytemuck::cast_slice(&std::mem::take(&mut prepared.vertices)))?;
         put("materials", bytemuck::cast_slice(&prepared.materials))?;
         put("details", bytemuck::cast_slice(&prepared.details))?;

@@ -153,8 +153,10 @@ pub struct Shape {
     pub kind: ShapeKind,
     /// Material.
     pub material: Handle<Material>,
-    /// Map to world space; invertible.
+    /// Map to world space; invertible. When the shutter opens, if it moves.
     pub world_from_object: Affine3A,
+    /// Map to world space when the shutter closes, which mirrors as the other does; none = it does not move.
+    pub at_close: Option<Affine3A>,
 }
 
 /// A mesh placed in the world.
@@ -166,6 +168,8 @@ pub struct Instance {
     pub mesh: Handle<Mesh>,
     /// Material of the parts that have none of their own.
     pub material: Handle<Material>,
-    /// Map to world space; invertible, may mirror.
+    /// Map to world space; invertible, may mirror. When the shutter opens, if it moves.
     pub world_from_object: Affine3A,
+    /// Map to world space when the shutter closes, which mirrors as the other does; none = it does not move.
+    pub at_close: Option<Affine3A>,
 }

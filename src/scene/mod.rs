@@ -15,7 +15,7 @@ mod texture;
 
 pub use camera::{
     Aperture, Camera, FisheyeMapping, Focus, FovAxis, Lens, LensCamera, LensInterface, LensSystem, Measure,
-    Opening, Paraxial, Perspective, Projection, Pupil, Stop, half_height,
+    Opening, Paraxial, Perspective, Projection, Pupil, Stand, Stop, half_height,
 };
 pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents};
 pub use displacement::{Displacement, DisplacementDirection, EdgeLimit};

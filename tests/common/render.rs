@@ -149,7 +149,7 @@ pub fn scene(width: u32, height: u32, spp: u32) -> Scene {
 pub fn look(position: Vec3, target: Vec3, fov: f32) -> Camera {
     let view = (target - position).normalize();
     let up = if view.y.abs() > 0.99 { -Vec3::Z } else { Vec3::Y };
-    Camera { position, target, up, mirrored: false, projection: Projection::pinhole(fov) }
+    Camera { position, target, up, mirrored: false, projection: Projection::pinhole(fov), at_close: None }
 }
 
 /// Grey.
@@ -205,13 +205,19 @@ impl Build for Scene {
     }
     fn shape(&mut self, kind: ShapeKind, material: Handle<Material>) -> &mut Shape {
         let name = format!("shape {}", self.shapes.len());
-        self.shapes.push(Shape { name, kind, material, world_from_object: Affine3A::IDENTITY });
+        self.shapes.push(Shape {
+            name,
+            kind,
+            material,
+            world_from_object: Affine3A::IDENTITY,
+            at_close: None,
+        });
         let last = self.shapes.len() - 1;
         &mut self.shapes[last]
     }
     fn place(&mut self, mesh: Handle<Mesh>, material: Handle<Material>, map: Affine3A) {
         let name = format!("instance {}", self.instances.len());
-        self.instances.push(Instance { name, mesh, material, world_from_object: map });
+        self.instances.push(Instance { name, mesh, material, world_from_object: map, at_close: None });
     }
     fn picture(&mut self, image: Image, change: impl FnOnce(&mut ImageTexture)) -> Handle<Texture> {
         let image = self.images.add("picture", image);

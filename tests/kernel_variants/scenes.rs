@@ -34,13 +34,19 @@ fn place_triangle(scene: &mut Scene, material: Handle<Material>, copies: u32) {
     let mesh = scene.meshes.add("mesh", triangle);
     for i in 0..copies {
         let world_from_object = Affine3A::from_translation(Vec3::Z * i as f32);
-        scene.instances.push(Instance { name: "instance".into(), mesh, material, world_from_object });
+        scene.instances.push(Instance {
+            name: "instance".into(),
+            mesh,
+            material,
+            world_from_object,
+            at_close: None,
+        });
     }
 }
 
 fn place_shape(scene: &mut Scene, material: Handle<Material>, kind: ShapeKind) {
     let world_from_object = Affine3A::IDENTITY;
-    scene.shapes.push(Shape { name: "shape".into(), kind, material, world_from_object });
+    scene.shapes.push(Shape { name: "shape".into(), kind, material, world_from_object, at_close: None });
 }
 
 fn sphere() -> ShapeKind {

@@ -24,6 +24,7 @@ pub(super) fn blob_scene() -> Scene {
         mesh,
         material: clay,
         world_from_object: Affine3A::IDENTITY,
+        at_close: None,
     });
     scene
 }
@@ -85,6 +86,7 @@ fn forest_scene() -> Scene {
                 rotation,
                 at,
             ),
+            at_close: None,
         });
     }
     scene
@@ -124,7 +126,7 @@ fn room(max_depth: u32) -> Scene {
 }
 
 fn shape(kind: ShapeKind, material: Handle<Material>) -> Shape {
-    Shape { name: "shape".into(), kind, material, world_from_object: Affine3A::IDENTITY }
+    Shape { name: "shape".into(), kind, material, world_from_object: Affine3A::IDENTITY, at_close: None }
 }
 
 fn diffuse(scene: &mut Scene, name: &str, color: Vec3) -> Handle<Material> {

@@ -6,7 +6,7 @@ use super::reader::Reader;
 use super::text::Limits;
 use super::view::View;
 use crate::Result;
-use crate::scene::{Camera, FisheyeMapping, FovAxis, Perspective, Projection};
+use crate::scene::{self, Camera, FisheyeMapping, FovAxis, Perspective, Projection};
 use glam::DVec3;
 
 /// Sine of the angle below which `up` counts as parallel to the view.
@@ -31,19 +31,11 @@ impl Reader<'_> {
             up: view.get("up").map_or(Ok(default.up), |item| item.direction())?,
             mirrored: view.bool_or("mirrored", default.mirrored)?,
             projection: default.projection,
+            at_close: None,
         };
-        // The place of a mistake is the key that was written, if any was.
-        let fail = |keys: &[&str], message: &str| match keys.iter().find_map(|key| view.get(key)) {
-            Some(item) => Err(item.error(message)),
-            None => Err(view.error(message)),
-        };
-        // Differences are taken as the camera takes them, in 32 bits.
-        let Some(forward) = (camera.target - camera.position).as_dvec3().try_normalize() else {
-            return fail(&["target", "position"], "the camera looks at its own position");
-        };
-        if camera.up.as_dvec3().cross(forward).length() < MIN_SINE {
-            return fail(&["up", "target", "position"], "`up` is parallel to the view");
-        }
+        let open = scene::Stand { position: camera.position, target: camera.target, up: camera.up };
+        let forward = forward(&view, &open, ["up", "target", "position"])?;
+        camera.at_close = stand_at_close(&view, &open)?;
         let stand = Stand { position: camera.position.as_dvec3(), forward };
         camera.projection = self.projection(&view, kind, &stand)?;
         self.scene.camera = camera;
@@ -75,4 +67,36 @@ impl Reader<'_> {
             }),
         })
     }
+}
+
+/// Where the camera looks, as a unit vector. The place of a mistake is the first of `keys`, those of up, target and position,
+/// that was written.
+fn forward(view: &View<'_>, stand: &scene::Stand, keys: [&str; 3]) -> Result<DVec3> {
+    let fail = |keys: &[&str], message: String| match keys.iter().find_map(|key| view.get(key)) {
+        Some(item) => Err(item.error(message)),
+        None => Err(view.error(message)),
+    };
+    // Differences are taken as the camera takes them, in 32 bits.
+    let Some(forward) = (stand.target - stand.position).as_dvec3().try_normalize() else {
+        return fail(&keys[1..], "the camera looks at its own position".into());
+    };
+    if stand.up.as_dvec3().cross(forward).length() < MIN_SINE {
+        return fail(&keys, format!("`{}` is parallel to the view", keys[0]));
+    }
+    Ok(forward)
+}
+
+/// Where the camera is when the shutter closes, if it moves: what is not said stays.
+fn stand_at_close(view: &View<'_>, open: &scene::Stand) -> Result<Option<scene::Stand>> {
+    let keys = ["up_close", "target_close", "position_close"];
+    if keys.iter().all(|key| view.get(key).is_none()) {
+        return Ok(None);
+    }
+    let stand = scene::Stand {
+        position: view.vec3_or("position_close", open.position)?,
+        target: view.vec3_or("target_close", open.target)?,
+        up: view.get("up_close").map_or(Ok(open.up), |item| item.direction())?,
+    };
+    forward(view, &stand, keys)?;
+    Ok(Some(stand))
 }

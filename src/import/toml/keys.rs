@@ -78,7 +78,7 @@ const LENS: &[&str] = &[
 ];
 
 pub(super) const CAMERA: Kinds = Kinds {
-    common: &["kind", "position", "target", "up", "mirrored"],
+    common: &["kind", "position", "target", "up", "position_close", "target_close", "up_close", "mirrored"],
     kinds: &[
         ("perspective", PERSPECTIVE),
         ("orthographic", &["view_size", "fov_axis"]),
@@ -286,11 +286,11 @@ const DISK: &[&str] = &["center", "normal", "radius", "meridian"];
 const QUAD: &[&str] = &["origin", "center", "edge_u", "edge_v", "displacement"];
 
 pub(super) const SHAPE: Kinds = Kinds {
-    common: &["kind", "material", "transform"],
+    common: &["kind", "material", "transform", "transform_close"],
     kinds: &[("sphere", SPHERE), ("disk", DISK), ("quad", QUAD)],
 };
 
-pub(super) const INSTANCE: &[&str] = &["mesh", "material", "transform"];
+pub(super) const INSTANCE: &[&str] = &["mesh", "material", "transform", "transform_close"];
 
 /// Steps of a `transform`.
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];
@@ -301,9 +301,45 @@ pub(super) const LIGHT: Kinds = Kinds {
         ("point", &["position", "intensity"]),
         ("spot", &["position", "target", "direction", "intensity", "cone_angle", "falloff_angle"]),
         ("distant", &["direction", "from", "irradiance"]),
-        ("sphere", &["center", "radius", "pole", "meridian", "radiance", "two_sided", "transform"]),
-        ("disk", &["center", "normal", "radius", "meridian", "radiance", "two_sided", "transform"]),
-        ("quad", &["origin", "center", "edge_u", "edge_v", "radiance", "two_sided", "transform"]),
+        (
+            "sphere",
+            &[
+                "center",
+                "radius",
+                "pole",
+                "meridian",
+                "radiance",
+                "two_sided",
+                "transform",
+                "transform_close",
+            ],
+        ),
+        (
+            "disk",
+            &[
+                "center",
+                "normal",
+                "radius",
+                "meridian",
+                "radiance",
+                "two_sided",
+                "transform",
+                "transform_close",
+            ],
+        ),
+        (
+            "quad",
+            &[
+                "origin",
+                "center",
+                "edge_u",
+                "edge_v",
+                "radiance",
+                "two_sided",
+                "transform",
+                "transform_close",
+            ],
+        ),
     ],
 };
 

@@ -43,10 +43,10 @@ impl Reader<'_> {
         let radiance = self.color(view.need("radiance")?, Limits::AtLeast(0.0))?;
         let emission = Some(Emission { radiance, two_sided: view.bool_or("two_sided", false)? });
         let kind = geometry(view, kind)?;
-        let world_from_object = placed(view)?;
+        let (world_from_object, at_close) = placed(view)?;
         let surface = Surface::Diffuse { color: Value::Constant(Vec3::ZERO) };
         let material = self.scene.materials.add(name.as_str(), Material::new(surface, emission));
-        self.scene.shapes.push(Shape { name, kind, material, world_from_object });
+        self.scene.shapes.push(Shape { name, kind, material, world_from_object, at_close });
         Ok(())
     }
 

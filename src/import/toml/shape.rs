@@ -17,9 +17,12 @@ impl Reader<'_> {
     pub fn shape(&mut self, index: usize, node: &Node) -> Result<()> {
         let name = format!("shape {index}");
         let (view, kind) = View::of_kind(self.sources, node, name.clone(), &SHAPE)?;
+        let kind = geometry(&view, kind)?;
+        let (world_from_object, at_close) = placed(&view)?;
         let shape = Shape {
-            kind: geometry(&view, kind)?,
-            world_from_object: placed(&view)?,
+            kind,
+            world_from_object,
+            at_close,
             material: self.materials.find(view.need("material")?)?,
             name,
         };
@@ -50,15 +53,23 @@ impl Reader<'_> {
                 return Err(view.error(format!("`material` is missing in {}{why}", view.what)));
             }
         };
-        let world_from_object = placed(&view)?;
-        self.scene.instances.push(Instance { name, mesh, material, world_from_object });
+        let (world_from_object, at_close) = placed(&view)?;
+        self.scene.instances.push(Instance { name, mesh, material, world_from_object, at_close });
         Ok(())
     }
 }
 
-/// The `transform` of an object.
-pub(super) fn placed(view: &View<'_>) -> Result<Affine3A> {
-    view.get("transform").map_or(Ok(Affine3A::IDENTITY), transform)
+/// The `transform` of an object, and its `transform_close`.
+pub(super) fn placed(view: &View<'_>) -> Result<(Affine3A, Option<Affine3A>)> {
+    let open = view.get("transform").map_or(Ok(Affine3A::IDENTITY), transform)?;
+    let Some(item) = view.get("transform_close") else { return Ok((open, None)) };
+    let close = transform(item)?;
+    let mirrors = |map: &Affine3A| map.as_daffine3().matrix3.determinant() < 0.0;
+    if mirrors(&open) != mirrors(&close) {
+        let message = "of `transform` and `transform_close` only one mirrors";
+        return Err(item.error(message).help("a thing that moves cannot be turned inside out"));
+    }
+    Ok((open, Some(close)))
 }
 
 /// The keys of a sphere, a disk or a quad.

@@ -14,7 +14,13 @@ fn scene(mesh: Mesh, edge: EdgeLimit, direction: DisplacementDirection, height: 
     let surface = Surface::Diffuse { color: Value::Constant(Vec3::ONE) };
     let material = scene.materials.add("grey", Material::new(surface, None));
     let world_from_object = Affine3A::IDENTITY;
-    scene.instances.push(Instance { name: "instance".into(), mesh, material, world_from_object });
+    scene.instances.push(Instance {
+        name: "instance".into(),
+        mesh,
+        material,
+        world_from_object,
+        at_close: None,
+    });
     scene
 }
 

@@ -158,10 +158,21 @@ impl Projection {
     }
 }
 
+/// Where a camera stands and looks when the shutter closes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stand {
+    /// Position of the camera.
+    pub position: Vec3,
+    /// Point that it looks at; must differ from `position`.
+    pub target: Vec3,
+    /// Direction that is up in the picture; must not be parallel to the view.
+    pub up: Vec3,
+}
+
 /// A camera. In camera space it looks along −z, with x to the right and y up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
-    /// Position of the camera.
+    /// Position of the camera. When the shutter opens, if it moves; so are target and up.
     pub position: Vec3,
     /// Point that the camera looks at; must differ from `position`.
     pub target: Vec3,
@@ -171,6 +182,8 @@ pub struct Camera {
     pub mirrored: bool,
     /// How points of the film become rays.
     pub projection: Projection,
+    /// Where it is when the shutter closes; none = it does not move.
+    pub at_close: Option<Stand>,
 }
 
 impl Default for Camera {
@@ -181,6 +194,7 @@ impl Default for Camera {
             up: Vec3::Y,
             mirrored: false,
             projection: Projection::pinhole(40.0),
+            at_close: None,
         }
     }
 }
@@ -188,11 +202,20 @@ impl Default for Camera {
 impl Camera {
     /// The map from camera space to world space: columns right, up, back, position.
     pub fn world_from_camera(&self) -> Affine3A {
-        let back = (self.position - self.target).normalize();
-        let right = self.up.cross(back).normalize();
+        self.world_from(&Stand { position: self.position, target: self.target, up: self.up })
+    }
+
+    /// The same map when the shutter closes, if the camera moves.
+    pub fn world_from_camera_at_close(&self) -> Option<Affine3A> {
+        self.at_close.map(|stand| self.world_from(&stand))
+    }
+
+    fn world_from(&self, stand: &Stand) -> Affine3A {
+        let back = (stand.position - stand.target).normalize();
+        let right = stand.up.cross(back).normalize();
         let up = back.cross(right);
         let right = if self.mirrored { -right } else { right };
-        Affine3A::from_cols(right.into(), up.into(), back.into(), self.position.into())
+        Affine3A::from_cols(right.into(), up.into(), back.into(), stand.position.into())
     }
 
     /// The thin lens, if it has one.
