@@ -19,7 +19,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::time::Duration;
 
 /// Something of everything: a mesh of its own tree, a baked one, spheres, disks, all materials, all kinds of light, pictures,
-/// a lens. 37 × 21 pixels, so that tiles reach beyond the picture.
+/// a lens, motion. 37 × 21 pixels, so that tiles reach beyond the picture.
 fn everything() -> Scene {
     let mut s = scene(37, 21, 8);
     s.camera = look(Vec3::new(0.0, 1.5, 5.0), Vec3::new(0.0, 0.5, 0.0), 50.0);
@@ -68,6 +68,13 @@ fn everything() -> Scene {
     let sheet = s.meshes.add("sheet", sheet);
     s.place(sheet, glow, Affine3A::IDENTITY);
     s.lights.push(point(Vec3::new(2.0, 2.0, 2.0), 3.0));
+    // The camera, a ball, a sheet and one of the bars move
+    let (position, target) = (Vec3::new(0.1, 1.4, 5.0), Vec3::new(0.0, 0.6, 0.0));
+    s.camera.at_close = Some(Stand { position, target, up: Vec3::Y });
+    let turn = Affine3A::from_rotation_y(0.2);
+    s.sphere(Vec3::new(0.8, 1.8, 0.0), 0.3, phong).at_close = Some(turn);
+    s.quad(Vec3::new(-1.8, 1.5, 0.0), Vec3::X, Vec3::Y * 0.5, glow).at_close = Some(turn);
+    s.instances[0].at_close = Some(s.instances[0].world_from_object * turn);
     s.environment = constant_environment(0.2);
     s
 }

@@ -178,6 +178,22 @@ fn bare() -> Scene {
     scene
 }
 
+/// Things and a camera that move.
+fn moving() -> Scene {
+    let mut scene = Scene::default();
+    let white = material(&mut scene, diffuse(0.5), Some(constant(1.0)));
+    place_triangle(&mut scene, white, 1);
+    for kind in [sphere(), disk(), quad()] {
+        place_shape(&mut scene, white, kind);
+    }
+    let close = Some(Affine3A::from_rotation_y(0.5));
+    scene.shapes.iter_mut().for_each(|shape| shape.at_close = close);
+    scene.instances.iter_mut().for_each(|instance| instance.at_close = close);
+    let Camera { position, target, up, .. } = scene.camera;
+    scene.camera.at_close = Some(Stand { position: position + Vec3::X, target, up });
+    scene
+}
+
 /// The cameras, each with what it can have.
 fn cameras() -> Vec<(&'static str, Scene)> {
     let axis = FovAxis::Vertical;
@@ -316,6 +332,7 @@ pub fn scenes() -> Vec<(&'static str, Scene)> {
         ("a principled material", bare()),
         ("principled materials and mixes", layers()),
         ("every kind of texture", trees()),
+        ("motion", moving()),
     ];
     all.extend(cameras());
     all

@@ -21,6 +21,7 @@ mod glass;
 mod lens;
 mod light;
 mod material;
+mod motion;
 mod offset;
 mod opacity;
 mod paths;

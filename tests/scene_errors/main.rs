@@ -167,6 +167,8 @@ fn cameras() {
         ("[camera]\nup = [0, 0, 0]", "2:6: `up` is the zero vector and gives no direction"),
         ("[camera]\nup = [0, 0, -2]", "2:6: `up` is parallel to the view"),
         ("[camera]\nposition = [0, 3, 0]", "2:12: `up` is parallel to the view"),
+        ("[camera]\ntarget_close = [0, 0, 5]", "2:16: the camera looks at its own position"),
+        ("[camera]\nup_close = [0, 0, -2]", "2:12: `up_close` is parallel to the view"),
         (
             "[camera]\nfocus_distance = 3",
             "2:18: `focus_distance` needs a lens, and the camera is a pinhole; add `lens_radius` or `f_number`",

@@ -51,6 +51,11 @@ fn shapes_and_transforms() {
             quad("edge_u = [0, 0, 0]\nedge_v = [2, 0, 0]\norigin = [0, 0, 0]"),
             "6:10: `edge_u` is the zero vector",
         ),
+        (sphere("transform_close = [{ scale = 0 }]"), "7:29: `scale` is 0, must not be 0"),
+        (
+            sphere("transform = [{ scale = 2 }]\ntransform_close = [{ scale = [1, -1, 1] }]"),
+            "8:19: of `transform` and `transform_close` only one mirrors; a thing that moves cannot be turned inside out",
+        ),
         (
             sphere("transform = { scale = 2 }"),
             "7:13: `transform` must be a list of steps, such as [{ translate = [0, 1, 0] }], found a table",

@@ -81,7 +81,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
     let seen = materials().flat_map(|material| material.textures()).chain(maps).collect();
     let (textures, references) = build(scene, &uses(scene), seen)?;
     out.features.footprint |= textures.footprint;
-    let timed = |texture: &Texture| matches!(texture, Texture::Noise(noise) if noise.w[1] != 0.0);
+    let timed = |texture: &Texture| matches!(texture, Texture::Noise(noise) if noise.perlin.dimensions == 4 && noise.w[1] != 0.0);
     out.features.timed_textures = scene.textures.iter().any(|(_, _, texture)| timed(texture));
     (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
     Ok(references)

@@ -127,6 +127,8 @@ fn camera_takes_every_key() {
     let camera = all().camera;
     assert_eq!((camera.position, camera.target), (Vec3::new(0.0, 1.0, 4.0), Vec3::Y));
     assert!(camera.mirrored);
+    let (position, target) = (Vec3::new(0.0, 1.0, 3.0), Vec3::new(1.0, 1.0, 0.0));
+    assert_eq!(camera.at_close, Some(Stand { position, target, up: Vec3::NEG_Z }));
     let Projection::Perspective(view) = camera.projection else { panic!() };
     assert_eq!((view.fov, view.fov_axis), (50.0, FovAxis::Smaller));
     let aperture = Aperture::FNumber { number: 2.8, sensor_height: 0.036 };
