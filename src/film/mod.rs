@@ -5,9 +5,11 @@
 //! the picture arrives as plain words (see [`WORDS_PER_PIXEL`]).
 
 mod exr;
+mod meter;
 mod png;
 mod resolve;
 mod sums;
+mod tone;
 mod write;
 
 pub use resolve::Picture;

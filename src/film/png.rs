@@ -1,15 +1,15 @@
-//! PNG: exposure, the sRGB curve, 8 or 16 bits, straight alpha, and what made the picture.
+//! PNG: exposure, a tone curve, 8 or 16 bits, straight alpha, and what made the picture.
 
 use std::io;
 
 use ::png::{BitDepth, ColorType, Encoder, EncodingError, ScaledFloat, SrgbRenderingIntent};
 
-use super::{Meta, Picture};
-use crate::scene;
+use super::{Meta, Picture, meter, tone};
+use crate::scene::{self, ToneCurve};
 
 /// Bytes of a PNG file of the window of the picture. The same input gives the same bytes.
 pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::Result<Vec<u8>> {
-    let pixels = straight_srgb(picture, film);
+    let pixels = straight(picture, film);
     let (depth, bytes) = match film.png_bits {
         8 => (BitDepth::Eight, pixels.map(|v| quantize(v, 255.0) as u8).collect()),
         16 => {
@@ -22,9 +22,13 @@ pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::
     let mut encoder = Encoder::new(&mut file, window.width(), window.height());
     encoder.set_color(if film.transparent { ColorType::Rgba } else { ColorType::Rgb });
     encoder.set_depth(depth);
-    encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
-    // For readers that do not know the chunk of sRGB: the gamma that the standard has for them
-    encoder.set_source_gamma(ScaledFloat::from_scaled(45_455));
+    if film.tone_curve == ToneCurve::Linear {
+        encoder.set_source_gamma(ScaledFloat::from_scaled(100_000));
+    } else {
+        encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+        // For readers that do not know the chunk of sRGB: the gamma that the standard has for them
+        encoder.set_source_gamma(ScaledFloat::from_scaled(45_455));
+    }
     let write = |mut encoder: Encoder<'_, _>| -> Result<(), EncodingError> {
         for (keyword, text) in texts(meta) {
             encoder.add_text_chunk(keyword.to_owned(), text)?;
@@ -50,9 +54,9 @@ fn texts(meta: &Meta) -> [(&'static str, String); 3] {
 }
 
 /// Channels of all pixels in order, encoded but not yet rounded; alpha, where it is written, is linear.
-fn straight_srgb<'a>(picture: &'a Picture, film: &scene::Film) -> impl Iterator<Item = f64> + 'a {
-    let gain = f64::from(film.exposure).exp2();
-    let transparent = film.transparent;
+fn straight<'a>(picture: &'a Picture, film: &scene::Film) -> impl Iterator<Item = f64> + 'a {
+    let gain = meter::gain(picture, film);
+    let (transparent, curve) = (film.transparent, film.tone_curve);
     picture.rgb.iter().zip(&picture.alpha).flat_map(move |(rgb, &alpha)| {
         // Colour in the film is premultiplied by coverage, in a PNG it is not
         let alpha = f64::from(alpha);
@@ -61,14 +65,9 @@ fn straight_srgb<'a>(picture: &'a Picture, film: &scene::Film) -> impl Iterator<
             (true, true) => gain / alpha,
             (true, false) => 0.0,
         };
-        let [r, g, b] = rgb.map(|v| srgb_from_linear(f64::from(v) * scale));
+        let [r, g, b] = tone::encode(curve, rgb.map(|v| f64::from(v) * scale));
         [r, g, b, alpha].into_iter().take(if transparent { 4 } else { 3 })
     })
-}
-
-/// The sRGB curve of IEC 61966-2-1, without a limit above.
-fn srgb_from_linear(linear: f64) -> f64 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
 /// The nearest whole number of `1 / top`, with values outside 0 to 1 clamped.
@@ -79,8 +78,10 @@ fn quantize(value: f64, top: f64) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::film::exr;
     use crate::film::tests::picture_of;
-    use crate::scene::Rect;
+    use crate::film::tone::srgb;
+    use crate::scene::{Exposure, Meter, Rect, Shot};
     use image::{DynamicImage, ImageReader};
     use std::io::Cursor;
 
@@ -91,22 +92,23 @@ mod tests {
         ImageReader::with_format(Cursor::new(file), image::ImageFormat::Png).decode().unwrap()
     }
 
-    fn film(exposure: f32, png_bits: u32, transparent: bool) -> scene::Film {
+    fn film(stops: f32, png_bits: u32, transparent: bool) -> scene::Film {
+        let exposure = Exposure { stops, ..Exposure::default() };
         scene::Film { exposure, png_bits, transparent, ..Default::default() }
     }
 
     #[test]
     fn curve_has_the_values_of_the_standard() {
-        assert_eq!(srgb_from_linear(0.0), 0.0);
-        assert!((srgb_from_linear(1.0) - 1.0).abs() < 1e-15);
+        assert_eq!(srgb(0.0), 0.0);
+        assert!((srgb(1.0) - 1.0).abs() < 1e-15);
         // The two pieces of the standard meet to about 1e-8, so its rounded constants leave no visible step
-        assert!((srgb_from_linear(0.003_130_8) - srgb_from_linear(0.003_130_800_1)).abs() < 1e-7);
+        assert!((srgb(0.003_130_8) - srgb(0.003_130_800_1)).abs() < 1e-7);
         // Middle values of every 8-bit code come back as that code
         for code in 0..=255u16 {
             let encoded = f64::from(code) / 255.0;
             let linear =
                 if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
-            assert_eq!(quantize(srgb_from_linear(linear), 255.0), code);
+            assert_eq!(quantize(srgb(linear), 255.0), code);
         }
     }
 
@@ -145,6 +147,45 @@ mod tests {
             lifted.as_bytes(),
             decode(encode(&picture, &film(0.0, 8, false), &META).unwrap()).as_bytes()
         );
+    }
+
+    #[test]
+    fn exposure_and_curves_change_a_png_and_no_exr() {
+        let mut picture = picture_of(1, 1, Rect { x0: 0, y0: 0, x1: 1, y1: 1 });
+        picture.rgb = vec![[0.125, 0.25, 0.5]];
+        let shot = Shot { shutter: 0.01, iso: 200.0, f_number: Some(2.8) };
+        let exposure =
+            |meter, stops| scene::Film { exposure: Exposure { meter, stops }, ..scene::Film::default() };
+        let curve = |tone_curve| scene::Film { tone_curve, ..scene::Film::default() };
+        let films = [
+            scene::Film::default(),
+            exposure(Meter::Fixed, -1.0),
+            exposure(Meter::Auto, 0.0),
+            exposure(Meter::Shot(shot), 0.0),
+            curve(ToneCurve::Linear),
+            curve(ToneCurve::Aces),
+            curve(ToneCurve::Agx),
+        ];
+        let pixel = |film| decode(encode(&picture, film, &META).unwrap()).into_bytes();
+        for (i, film) in films.iter().enumerate() {
+            for other in &films[..i] {
+                assert_ne!(pixel(film), pixel(other), "{film:?} and {other:?}");
+            }
+            let file = exr::encode(&picture, film, &META).unwrap();
+            assert!(file == exr::encode(&picture, &films[0], &META).unwrap(), "{film:?}");
+        }
+    }
+
+    #[test]
+    fn a_linear_png_has_the_numbers_and_says_so() {
+        let mut picture = picture_of(1, 1, Rect { x0: 0, y0: 0, x1: 1, y1: 1 });
+        picture.rgb = vec![[0.2, 0.4, 7.0]];
+        let film = scene::Film { tone_curve: ToneCurve::Linear, ..film(0.0, 8, false) };
+        let file = encode(&picture, &film, &META).unwrap();
+        assert_eq!(decode(file.clone()).as_bytes(), [51, 102, 255]);
+        let reader = ::png::Decoder::new(Cursor::new(file)).read_info().unwrap();
+        assert_eq!(reader.info().srgb, None);
+        assert_eq!(reader.info().gama_chunk.map(|gamma| gamma.into_scaled()), Some(100_000));
     }
 
     #[test]

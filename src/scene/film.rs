@@ -1,5 +1,7 @@
 //! Size of the picture, pixel filter, samples and depth.
 
+use super::{Exposure, ToneCurve};
+
 /// Largest width and height of a picture, in pixels.
 pub const MAX_SIDE: u32 = 16384;
 
@@ -67,8 +69,10 @@ pub struct Film {
     pub crop: Option<Rect>,
     /// Pixel filter.
     pub filter: Filter,
-    /// Exposure in stops, applied on the way to PNG only.
-    pub exposure: f32,
+    /// How bright the picture is in a PNG.
+    pub exposure: Exposure,
+    /// The curve on the way to PNG.
+    pub tone_curve: ToneCurve,
     /// Bits a channel in a PNG: 8 or 16.
     pub png_bits: u32,
     /// Leave out the sky behind the scene and write the coverage as alpha, with colour premultiplied in EXR and not
@@ -90,7 +94,8 @@ impl Default for Film {
             height: 480,
             crop: None,
             filter: Filter { kind: FilterKind::Box, radius: 0.5 },
-            exposure: 0.0,
+            exposure: Exposure::default(),
+            tone_curve: ToneCurve::Srgb,
             png_bits: 8,
             transparent: false,
         }

@@ -6,6 +6,7 @@
 mod camera;
 mod detail;
 mod displacement;
+mod exposure;
 mod film;
 mod geometry;
 mod light;
@@ -19,6 +20,7 @@ pub use camera::{
 };
 pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents};
 pub use displacement::{Displacement, DisplacementDirection, EdgeLimit};
+pub use exposure::{Exposure, Meter, Shot, ToneCurve};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub use light::{Environment, Light};

@@ -136,6 +136,19 @@ fn film_and_render() {
         ),
         ("[film]\nfilter_radius = 0", "2:17: `filter_radius` is 0, must be above 0 and at most 64"),
         ("[film]\nexposure = nan", "2:12: `exposure` is nan, must be finite"),
+        ("[film]\nexposure = 65", "2:12: `exposure` is 65, must be from -64 to 64"),
+        (
+            "[film]\nexposure = 'automatic'",
+            "2:12: `exposure` is \"automatic\", must be a number of stops or \"auto\"",
+        ),
+        (
+            "[film]\nexposure = true",
+            "2:12: `exposure` must be a number of stops or \"auto\", found a boolean",
+        ),
+        (
+            "[film]\ntone_curve = 'agX'",
+            "2:14: `tone_curve` is \"agX\", must be one of \"srgb\", \"linear\", \"aces\", \"agx\"; did you mean \"agx\"?",
+        ),
         ("[film]\npng_bits = 12", "2:12: `png_bits` is 12, must be 8 or 16"),
         ("[film]\ntransparent = 1", "2:15: `transparent` must be true or false, found a whole number"),
         ("[render]\nspp = 0", "2:7: `spp` is 0, must be from 1 to 1048576"),
@@ -214,6 +227,19 @@ fn cameras() {
         (
             "[camera]\ncat_eye = 1",
             "2:11: `cat_eye` needs a lens, and the camera is a pinhole; add `lens_radius` or `f_number`",
+        ),
+        ("[camera]\niso = 100", "2:7: `iso` needs a time that the shutter is open; add `shutter`"),
+        (
+            "[camera]\nlens_radius = 1\nfocus_distance = 1\nshutter = 0.01",
+            "4:11: `shutter` needs the f-number of the lens; add `f_number`, or brighten the picture with `exposure` in [film]",
+        ),
+        (
+            "[camera]\nf_number = 8\nfocus_distance = 1\nshutter = 0",
+            "4:11: `shutter` is 0, must be above 0 and at most 1000000000",
+        ),
+        (
+            "[camera]\nkind = 'orthographic'\nshutter = 1",
+            "3:1: unknown key `shutter` in orthographic [camera]; it is a key of perspective, lens",
         ),
     ]);
 }

@@ -38,6 +38,7 @@ impl Reader<'_> {
         camera.at_close = stand_at_close(&view, &open)?;
         let stand = Stand { position: camera.position.as_dvec3(), forward };
         camera.projection = self.projection(&view, kind, &stand)?;
+        self.shot(&view, &camera)?;
         self.scene.camera = camera;
         Ok(())
     }

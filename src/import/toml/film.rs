@@ -3,10 +3,12 @@
 use super::document::Node;
 use super::keys::{FILM, RENDER};
 use super::reader::Reader;
-use super::text::Limits;
-use super::view::View;
+use super::text::{Limits, shown};
+use super::view::{Item, View};
 use crate::Result;
-use crate::scene::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
+use crate::scene::{
+    Exposure, Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Meter, Rect, Render, Sampler, ToneCurve,
+};
 
 const MAX_STRATA: u32 = 4096;
 const MAX_DEPTH: u32 = 1000;
@@ -14,6 +16,25 @@ const MAX_DEPTH: u32 = 1000;
 const MAX_EXPOSURE: f32 = 64.0;
 /// Pixels; wider filters only blur.
 const MAX_FILTER_RADIUS: f32 = 64.0;
+const TONE_CURVES: [(&str, ToneCurve); 4] = [
+    ("srgb", ToneCurve::Srgb),
+    ("linear", ToneCurve::Linear),
+    ("aces", ToneCurve::Aces),
+    ("agx", ToneCurve::Agx),
+];
+
+/// Stops, or `"auto"`.
+fn exposure(item: Item<'_>) -> Result<Exposure> {
+    if item.is_number() {
+        let stops = item.f32(Limits::From(-MAX_EXPOSURE, MAX_EXPOSURE))?;
+        return Ok(Exposure { stops, ..Exposure::default() });
+    }
+    match item.string() {
+        Ok("auto") => Ok(Exposure { meter: Meter::Auto, stops: 0.0 }),
+        Ok(other) => Err(item.refuse(format!("\"{}\"", shown(other)), "a number of stops or \"auto\"")),
+        Err(_) => Err(item.mismatch("a number of stops or \"auto\"")),
+    }
+}
 
 impl Reader<'_> {
     pub fn film(&mut self, node: &Node) -> Result<()> {
@@ -47,7 +68,8 @@ impl Reader<'_> {
         };
         let radius = view.f32_or("filter_radius", radius, Limits::AboveUpTo(0.0, MAX_FILTER_RADIUS))?;
         film.filter = Filter { kind, radius };
-        film.exposure = view.f32_or("exposure", film.exposure, Limits::From(-MAX_EXPOSURE, MAX_EXPOSURE))?;
+        film.exposure = view.get("exposure").map_or(Ok(film.exposure), exposure)?;
+        film.tone_curve = view.choice_or("tone_curve", film.tone_curve, &TONE_CURVES)?;
         if let Some(item) = view.get("png_bits") {
             film.png_bits = item.u32(0, u32::MAX)?;
             if film.png_bits != 8 && film.png_bits != 16 {

@@ -31,7 +31,7 @@ pub(super) const NAMED: &[&str] = &["texture", "material", "mesh"];
 pub(super) const LISTS: &[&str] = &["shape", "instance", "light"];
 
 pub(super) const FILM: &[&str] =
-    &["size", "crop", "filter", "filter_radius", "exposure", "png_bits", "transparent"];
+    &["size", "crop", "filter", "filter_radius", "exposure", "tone_curve", "png_bits", "transparent"];
 
 pub(super) const RENDER: &[&str] = &[
     "spp",
@@ -59,6 +59,8 @@ const PERSPECTIVE: &[&str] = &[
     "anamorphic",
     "aperture_image",
     "cat_eye",
+    "shutter",
+    "iso",
 ];
 const LENS: &[&str] = &[
     "file",
@@ -75,6 +77,8 @@ const LENS: &[&str] = &[
     "aperture_image",
     "dispersion",
     "measure",
+    "shutter",
+    "iso",
 ];
 
 pub(super) const CAMERA: Kinds = Kinds {

@@ -8,6 +8,7 @@ mod camera;
 mod detail;
 mod displacement;
 mod document;
+mod exposure;
 mod film;
 mod include;
 mod keys;

@@ -1,6 +1,7 @@
 //! The reader as a whole, on files in memory. Here: defaults, and a scene that has every key.
 
 mod damage;
+mod exposure;
 mod files;
 mod manual;
 mod materials;
@@ -98,12 +99,14 @@ fn nothing_gives_the_defaults() {
 #[test]
 fn film_and_render_take_every_key() {
     let scene = all();
+    let shot = Shot { shutter: 0.01, iso: 400.0, f_number: Some(2.8) };
     let film = Film {
         width: 320,
         height: 200,
         crop: Some(Rect { x0: 10, y0: 20, x1: 300, y1: 200 }),
         filter: Filter { kind: FilterKind::Gaussian, radius: 2.0 },
-        exposure: -1.5,
+        exposure: Exposure { meter: Meter::Shot(shot), stops: -1.5 },
+        tone_curve: ToneCurve::Agx,
         png_bits: 16,
         transparent: true,
     };
