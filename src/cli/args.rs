@@ -35,6 +35,74 @@ pub enum Command {
     Bench(BenchArgs),
     /// Print what a lens file is: focal length, f-number, principal planes and pupils; needs no device
     Lens(LensArgs),
+    /// Turn a texture of a scene into an image, or into a stack of slices
+    Bake(BakeArgs),
+}
+
+/// `dapple bake`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = BAKE_HELP)]
+pub struct BakeArgs {
+    /// The scene, a TOML file
+    pub scene: PathBuf,
+    /// Name of the texture; nothing else needs to use it
+    pub texture: String,
+    /// The image: .png (16 bits, linear) or .exr (32-bit floats); of slices NAME_000.png and so on
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Size of the image, or of each slice, in texels; default: 256x256
+    #[arg(long, value_name = "WxH", value_parser = parse::size)]
+    pub size: Option<Size>,
+    /// Bake the unit cube in so many slices
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub slices: Option<u32>,
+    /// The axis that goes through the slices
+    #[arg(long, value_enum, default_value = "z", requires = "slices")]
+    pub axis: Axis,
+    /// Values that are written as 0 and 1; default: 0 1
+    #[arg(long, num_args = 2, value_names = ["LOW", "HIGH"], allow_negative_numbers = true, value_parser = parse::finite)]
+    pub range: Option<Vec<f64>>,
+    /// Write alpha too, as it is
+    #[arg(long)]
+    pub alpha: bool,
+    /// Device, by its number or a part of its name as `dapple devices` shows them
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub device: Option<String>,
+    /// Fail rather than bake on a CPU
+    #[arg(long)]
+    pub require_gpu: bool,
+    /// Change a key of the scene, such as texture.marble.octaves=3; may be given several times
+    #[arg(long, value_name = "key=value", value_parser = parse::setting)]
+    pub set: Vec<Setting>,
+    /// Print nothing but errors
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+const BAKE_HELP: &str = "Values are those of points, in the middles of texels, without a filter. An image is u to the right and v \
+    upwards from 0 to 1, on the square of x and y from 0 to 1 at z = 0. Slices fill the cube from 0 to 1: columns are along \
+    the axis after that of the slices, rows upwards along the one after that. World and object space are one.\n\
+    A PNG is linear: read it with color_space = \"linear\".";
+
+/// An axis of space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+impl BakeArgs {
+    /// Values that become 0 and 1.
+    pub fn range(&self) -> [f64; 2] {
+        match self.range.as_deref() {
+            Some([low, high]) => [*low, *high],
+            _ => [0.0, 1.0],
+        }
+    }
 }
 
 /// `dapple lens`.

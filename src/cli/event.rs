@@ -61,6 +61,20 @@ pub enum Event {
         /// The command that renders the first pixel again that had a sample that was not finite.
         repeat: Option<String>,
     },
+    /// A texture is baked.
+    Baked {
+        files: Vec<String>,
+        /// Columns and rows of each.
+        size: [u32; 2],
+        /// Least and greatest of red, green and blue, before `--range`.
+        least: [f32; 3],
+        greatest: [f32; 3],
+        /// Texels with a colour that a PNG cannot hold.
+        clamped: u64,
+        /// Texels that were not finite.
+        not_finite: u64,
+        seconds: f64,
+    },
     /// The end, with exit code 1 or 2.
     Error {
         message: String,

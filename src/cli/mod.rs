@@ -4,6 +4,7 @@
 //! 130 a second Ctrl-C.
 
 mod args;
+mod bake;
 mod bench;
 mod check;
 mod console;
@@ -49,6 +50,7 @@ pub fn run() -> ExitCode {
         }
         Some(Command::Check(args)) => with(Console::new(args.json, false), |c| Ok(check::run(&args, c)?)),
         Some(Command::Bench(args)) => with(Console::new(args.json, false), |c| Ok(bench::run(&args, c)?)),
+        Some(Command::Bake(args)) => with(Console::new(args.json, args.quiet), |c| Ok(bake::run(&args, c)?)),
         Some(Command::Lens(args)) => with(Console::new(args.json, false), |c| Ok(lens::run(&args, c)?)),
         None => {
             console::say(&Args::command().render_help().to_string());

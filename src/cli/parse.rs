@@ -59,6 +59,12 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "write a number above 0, such as 1000 or 5.6".into())
 }
 
+/// A finite number.
+pub fn finite(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
+    number.ok_or_else(|| "write a finite number, such as -1 or 0.5".into())
+}
+
 /// `key=value`.
 pub fn setting(text: &str) -> Result<Setting, String> {
     let (key, value) = text.split_once('=').ok_or("write key=value, such as render.max_depth=3")?;

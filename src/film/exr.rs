@@ -7,13 +7,21 @@ use ::exr::prelude::{
     ImageAttributes, IntegerBounds, Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage,
 };
 
-use super::{Meta, Picture};
+use super::{Frame, Meta, Picture};
 use crate::scene;
 
 /// Bytes of an EXR file: the data window is the window of the picture, the display window all of it. The same
 /// input gives the same bytes.
 pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::Result<Vec<u8>> {
-    let frame = &picture.frame;
+    file(&picture.frame, channels(picture, film.transparent), attributes(meta))
+}
+
+/// Bytes of an EXR file with these channels over the window of a picture.
+pub(super) fn file<const N: usize>(
+    frame: &Frame,
+    channels: Vec<AnyChannel<FlatSamples>>,
+    attributes: [(Text, AttributeValue); N],
+) -> io::Result<Vec<u8>> {
     let whole = |v: u32| {
         i32::try_from(v).map_err(|_| io::Error::other(format!("{v} pixels, an EXR has at most {}", i32::MAX)))
     };
@@ -24,7 +32,7 @@ pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::
         software_name: Text::new_or_none(format!("dapple {}", env!("CARGO_PKG_VERSION"))),
         ..Default::default()
     };
-    own.other.extend(attributes(meta));
+    own.other.extend(attributes);
     let shared = ImageAttributes::new(IntegerBounds::from_dimensions(Vec2(
         frame.width as usize,
         frame.height as usize,
@@ -38,7 +46,7 @@ pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::
             blocks: Blocks::ScanLines,
             line_order: LineOrder::Increasing,
         },
-        AnyChannels::sort(channels(picture, film.transparent).into_iter().collect()),
+        AnyChannels::sort(channels.into_iter().collect()),
     );
     let mut file = Cursor::new(Vec::new());
     Image::new(shared, layer).write().to_buffered(&mut file).map_err(|error| match error {

@@ -5,6 +5,7 @@
 //! the picture arrives as plain words (see [`WORDS_PER_PIXEL`]).
 
 mod exr;
+mod grid;
 mod meter;
 mod png;
 mod resolve;
@@ -12,6 +13,7 @@ mod sums;
 mod tone;
 mod write;
 
+pub use grid::{Grid, write_grid};
 pub use resolve::Picture;
 pub use write::{Format, Meta, check_target, format_of, write};
 

@@ -18,11 +18,35 @@ pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::
         bits => return Err(io::Error::other(format!("{bits} bits a channel, a PNG has 8 or 16"))),
     };
     let window = picture.frame.window;
+    let head = Head {
+        width: window.width(),
+        height: window.height(),
+        color: if film.transparent { ColorType::Rgba } else { ColorType::Rgb },
+        depth,
+        linear: film.tone_curve == ToneCurve::Linear,
+        texts: &texts(meta),
+    };
+    file(&head, &bytes)
+}
+
+/// What a file says about its numbers.
+pub(super) struct Head<'a> {
+    pub width: u32,
+    pub height: u32,
+    pub color: ColorType,
+    pub depth: BitDepth,
+    /// Whether they are linear; else they are sRGB.
+    pub linear: bool,
+    pub texts: &'a [(&'static str, String)],
+}
+
+/// Bytes of a PNG file with these numbers, row by row from the top, the higher byte first.
+pub(super) fn file(head: &Head<'_>, bytes: &[u8]) -> io::Result<Vec<u8>> {
     let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, window.width(), window.height());
-    encoder.set_color(if film.transparent { ColorType::Rgba } else { ColorType::Rgb });
-    encoder.set_depth(depth);
-    if film.tone_curve == ToneCurve::Linear {
+    let mut encoder = Encoder::new(&mut file, head.width, head.height);
+    encoder.set_color(head.color);
+    encoder.set_depth(head.depth);
+    if head.linear {
         encoder.set_source_gamma(ScaledFloat::from_scaled(100_000));
     } else {
         encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
@@ -30,11 +54,11 @@ pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::
         encoder.set_source_gamma(ScaledFloat::from_scaled(45_455));
     }
     let write = |mut encoder: Encoder<'_, _>| -> Result<(), EncodingError> {
-        for (keyword, text) in texts(meta) {
-            encoder.add_text_chunk(keyword.to_owned(), text)?;
+        for (keyword, text) in head.texts {
+            encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
         }
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(&bytes)?;
+        writer.write_image_data(bytes)?;
         writer.finish()
     };
     write(encoder).map_err(|error| match error {
@@ -47,10 +71,15 @@ pub(super) fn encode(picture: &Picture, film: &scene::Film, meta: &Meta) -> io::
 /// What made the picture, under the names that an EXR has for it.
 fn texts(meta: &Meta) -> [(&'static str, String); 3] {
     [
-        ("Software", concat!("dapple ", env!("CARGO_PKG_VERSION")).to_owned()),
+        software(),
         ("dapple.seed", meta.seed.to_string()),
         ("dapple.samplesPerPixel", meta.samples_per_pixel.to_string()),
     ]
+}
+
+/// Which program wrote the file.
+pub(super) fn software() -> (&'static str, String) {
+    ("Software", concat!("dapple ", env!("CARGO_PKG_VERSION")).to_owned())
 }
 
 /// Channels of all pixels in order, encoded but not yet rounded; alpha, where it is written, is linear.
@@ -71,7 +100,7 @@ fn straight<'a>(picture: &'a Picture, film: &scene::Film) -> impl Iterator<Item 
 }
 
 /// The nearest whole number of `1 / top`, with values outside 0 to 1 clamped.
-fn quantize(value: f64, top: f64) -> u16 {
+pub(super) fn quantize(value: f64, top: f64) -> u16 {
     (value.clamp(0.0, 1.0) * top).round() as u16
 }
 

@@ -84,6 +84,11 @@ pub fn write(path: &Path, picture: &Picture, film: &scene::Film, meta: &Meta) ->
         Format::Png => png::encode(picture, film, meta),
         Format::Exr => exr::encode(picture, film, meta),
     };
+    write_file(path, bytes)
+}
+
+/// Writes an encoded file whole or not at all.
+pub(super) fn write_file(path: &Path, bytes: io::Result<Vec<u8>>) -> Result<()> {
     bytes
         .and_then(|bytes| write_whole(path, |file| fill(file, &bytes)))
         .map_err(|error| refusal(path, &error))

@@ -4,6 +4,7 @@
 //! These tests need a Vulkan driver and the validation layer; `tools/test` installs both.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by a panic, in its helpers too")]
 
+mod bake;
 mod bench;
 mod checks;
 mod errors;
