@@ -2,6 +2,7 @@
 
 use crate::Room;
 use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 
 #[test]
 fn check_tells_what_is_in_a_scene() {
@@ -29,16 +30,41 @@ fn check_tells_what_is_in_a_scene() {
     assert_eq!(room.names(), ["scene.toml"]);
 }
 
+/// Files of a folder below scenes/ that have an extension, sorted.
+fn files_of(folder: &str, extension: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(folder);
+    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<_> = files.filter(|file| file.extension().is_some_and(|e| e == extension)).collect();
+    files.sort();
+    assert!(files.len() >= 2, "{}", folder.display());
+    files
+}
+
 #[test]
 fn the_scenes_that_come_with_the_program_are_sound() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
-    let scenes: Vec<_> = files.filter(|file| file.extension().is_some_and(|e| e == "toml")).collect();
-    assert!(scenes.len() >= 2, "{}", folder.display());
-    for scene in scenes {
+    for scene in files_of("", "toml") {
         let ran = Room::new().run(&format!("check {} --json", scene.display())).code(0);
         let contents: Value = serde_json::from_str(&ran.out).unwrap();
         assert_eq!(contents["warnings"], json!([]), "{}", scene.display());
+    }
+}
+
+#[test]
+fn every_scene_is_in_the_gallery() {
+    let names = |files: Vec<PathBuf>| -> Vec<String> {
+        files.iter().map(|file| file.file_stem().unwrap().to_string_lossy().into_owned()).collect()
+    };
+    let (scenes, pictures) = (names(files_of("", "toml")), files_of("gallery", "png"));
+    assert_eq!(scenes, names(pictures.clone()), "run tools/gallery, and commit what it writes");
+    let manual = include_str!("../../scenes/README.md").split_once("\n## Gallery\n").unwrap().1;
+    for (name, picture) in scenes.iter().zip(&pictures) {
+        let (width, height) = crate::png_size(picture);
+        let bytes = std::fs::metadata(picture).unwrap().len();
+        assert!(width <= 320 && height <= 320 && bytes < 60_000, "{name}: {width} x {height}, {bytes} bytes");
+        assert!(
+            manual.contains(&format!("(gallery/{name}.png)]({name}.toml)")),
+            "the manual does not show {name}; run tools/gallery"
+        );
     }
 }
 
