@@ -126,7 +126,14 @@ impl Plane {
         position[(self.axis + 1) % 3] = uv[0];
         position[(self.axis + 2) % 3] = uv[1];
         normal[self.axis] = 1.0;
-        TexturePoint { position, object_position: position, uv, normal, ..TexturePoint::default() }
+        TexturePoint {
+            position,
+            object_position: position,
+            uv,
+            normal,
+            object_normal: normal,
+            ..TexturePoint::default()
+        }
     }
 }
 
