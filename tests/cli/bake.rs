@@ -107,6 +107,35 @@ fn a_stack_is_a_checker_of_cubes() {
 }
 
 #[test]
+fn a_baked_stack_is_read_back_along_every_axis() {
+    let room = room();
+    let again = |kind: &str| {
+        let source = if kind == "stack" {
+            "files = \"x_%03d.png\"\ncount = 4\naxis = \"x\"\nfilter = \"nearest\""
+        } else {
+            "file = \"image.png\"\nfilter = \"nearest\""
+        };
+        format!("[texture.again]\nkind = \"{kind}\"\n{source}\ncolor_space = \"linear\"\n")
+    };
+    // Columns along y and rows along z; then columns along x and rows along y
+    room.run("bake scene.toml cells -o x.png --size 8x2 --slices 4 --axis x -q").code(0);
+    room.write("again.toml", &again("stack"));
+    for (name, slices) in [("x", "--size 8x2 --slices 4 --axis x"), ("z", "--size 4x8 --slices 2 --axis z")] {
+        room.run(&format!("bake scene.toml cells -o first_{name}.png {slices} -q")).code(0);
+        room.run(&format!("bake again.toml again -o again_{name}.png {slices} -q")).code(0);
+        for slice in 0..2 {
+            let [first, second] =
+                ["first", "again"].map(|which| png(&room.path(&format!("{which}_{name}_{slice:03}.png"))));
+            assert_eq!(first, second, "axis {name}, slice {slice}");
+        }
+    }
+    room.run("bake scene.toml up -o image.png --size 3x8 -q").code(0);
+    room.write("again.toml", &again("image"));
+    room.run("bake again.toml again -o second.png --size 3x8 -q").code(0);
+    assert_eq!(png(&room.path("image.png")), png(&room.path("second.png")));
+}
+
+#[test]
 fn what_cannot_be_baked_is_said() {
     let room = room();
     room.run("bake scene.toml marble -o a.png")
