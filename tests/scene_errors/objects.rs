@@ -51,7 +51,7 @@ fn shapes_and_transforms() {
             quad("edge_u = [0, 0, 0]\nedge_v = [2, 0, 0]\norigin = [0, 0, 0]"),
             "6:10: `edge_u` is the zero vector",
         ),
-        (sphere("transform_close = [{ scale = 0 }]"), "7:29: `scale` is 0, must not be 0"),
+        (sphere("transform_close = [{ scale = 0 }]"), "7:30: `scale` is 0, must be different from 0"),
         (
             sphere("transform = [{ scale = 2 }]\ntransform_close = [{ scale = [1, -1, 1] }]"),
             "8:19: of `transform` and `transform_close` only one mirrors; a thing that moves cannot be turned inside out",
@@ -193,7 +193,7 @@ fn meshes_and_instances() {
         ("[[instance]]\nmesh = 'm'".into(), "4:8: no mesh is named `m`; there are no meshes"),
         (
             "[[instance]]\nname = 'm'".into(),
-            "4:1: unknown key `name` in instance 1; its keys are `mesh`, `material`, `transform`",
+            "4:1: unknown key `name` in instance 1; its keys are `mesh`, `material`, `transform`, `transform_close`",
         ),
     ];
     check_with_material(&cases.iter().map(|(text, message)| (text.as_str(), *message)).collect::<Vec<_>>());
