@@ -125,6 +125,10 @@ impl Motion {
     /// Between two times a point is off the chord by an eighth of the squared step times its largest acceleration, which for a
     /// rotation of speed ω about the origin of a point a that moves by a' is at most ω² |a| + 2 ω |a'|.
     pub fn bounds(&self, first: &Affine3A, object: &Bounds, place: impl Fn(&Affine3A) -> Bounds) -> Bounds {
+        if object.min.x > object.max.x {
+            // There is nothing in it
+            return *object;
+        }
         let first = first.as_daffine3();
         let steps = if self.angle > 0.0 { STEPS } else { 1 };
         let mut all = Bounds::default();
