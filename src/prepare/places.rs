@@ -1,4 +1,4 @@
-//! The maps of shapes from the unit things of the kernels, and the sizes that these can have.
+//! The maps of shapes from the unit things of the kernels, and the sizes that things can have.
 
 use crate::scene::Shape;
 use crate::{Error, Result};

@@ -245,6 +245,22 @@ fn nothing_that_moves_shadows_itself() {
 }
 
 #[test]
+fn a_texture_of_the_users_own_sees_the_time() {
+    let mut s = parallel(8, 256);
+    let text = GlslTexture {
+        source: "vec4 color(TextureContext c) { return vec4(c.time * c.time); }".into(),
+        file: "test.glsl".into(),
+        line: 1,
+        parameters: Vec::new(),
+        max: 1.0,
+    };
+    let color = Value::Texture(s.textures.add("time", Texture::Glsl(text)));
+    let m = s.unlit(color);
+    s.quad(Vec3::new(-2.0, -2.0, 0.3), Vec3::X * 4.0, Vec3::Y * 4.0, m);
+    expect_grey(mean(&render(&s)), 1.0 / 3.0, 0.0);
+}
+
+#[test]
 fn a_texture_sees_the_time() {
     // Noise in four dimensions whose w grows: the mean of pictures at single times
     let with = |w: [f32; 2], spp: u32| {

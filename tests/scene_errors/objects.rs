@@ -53,6 +53,13 @@ fn shapes_and_transforms() {
         ),
         (sphere("transform_close = [{ scale = 0 }]"), "7:30: `scale` is 0, must be different from 0"),
         (
+            format!(
+                "[texture.t]\nkind = 'constant'\ncolor = 0\n{}",
+                sphere("displacement = { texture = 't' }\ntransform_close = []")
+            ),
+            "10:16: a shape that moves cannot be displaced; displace a mesh, and move its instance",
+        ),
+        (
             sphere("transform = [{ scale = 2 }]\ntransform_close = [{ scale = [1, -1, 1] }]"),
             "8:19: of `transform` and `transform_close` only one mirrors; a thing that moves cannot be turned inside out",
         ),

@@ -48,12 +48,11 @@ impl Reader<'_> {
         let parts = vec![MeshPart { name: String::new(), triangles: whole, material: None }];
         let mesh = Mesh { displacement: Some(displacement), parts, ..base };
         let mesh = self.scene.meshes.add(&shape.name, mesh);
-        let frame = shape.kind.frame();
         self.scene.instances.push(Instance {
             mesh,
-            at_close: shape.at_close.map(|map| map * frame),
             material: shape.material,
-            world_from_object: shape.world_from_object * frame,
+            world_from_object: shape.world_from_object * shape.kind.frame(),
+            at_close: None,
             name: shape.name,
         });
     }

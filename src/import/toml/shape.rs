@@ -29,6 +29,11 @@ impl Reader<'_> {
         match view.get("displacement") {
             Some(item) => {
                 let displacement = self.displacement(item)?;
+                if shape.at_close.is_some() {
+                    return Err(item
+                        .error("a shape that moves cannot be displaced")
+                        .help("displace a mesh, and move its instance"));
+                }
                 self.displaced_shape(shape, displacement);
             }
             None => self.scene.shapes.push(shape),

@@ -81,10 +81,18 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
     let seen = materials().flat_map(|material| material.textures()).chain(maps).collect();
     let (textures, references) = build(scene, &uses(scene), seen)?;
     out.features.footprint |= textures.footprint;
-    let timed = |texture: &Texture| matches!(texture, Texture::Noise(noise) if noise.perlin.dimensions == 4 && noise.w[1] != 0.0);
-    out.features.timed_textures = scene.textures.iter().any(|(_, _, texture)| timed(texture));
+    out.features.timed_textures = scene.textures.iter().any(|(_, _, texture)| sees_time(texture));
     (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
     Ok(references)
+}
+
+/// Whether the values of a texture itself may depend on the time.
+fn sees_time(texture: &Texture) -> bool {
+    match texture {
+        Texture::Noise(noise) => noise.perlin.dimensions == 4 && noise.w[1] != 0.0,
+        Texture::Glsl(texture) => texture.source.contains("time"),
+        _ => false,
+    }
 }
 
 /// A use of textures: the function of the kernels that gives their values, and those that it is asked for.
