@@ -13,7 +13,7 @@ fn hits(test: &str) -> String {
             vec3 o = uintBitsToFloat(fetch_points(2u * i).xyz);
             vec4 d = uintBitsToFloat(fetch_points(2u * i + 1u));
             float t;
-            bool hit = {test}(o, d.xyz, d.w, t);
+            bool hit = {test}(o, d.xyz, 0.0, d.w, t);
             store_values(i, uvec4(hit ? 1u : 0u, floatBitsToUint(t), 0u, 0u));
         }}"
     )

@@ -25,9 +25,8 @@ fn scene(mesh: Mesh, edge: EdgeLimit, direction: DisplacementDirection, height: 
 }
 
 fn displaced(scene: &Scene, value: impl Fn(&TexturePoint) -> [f32; 3]) -> Mesh {
-    let mut values = |_, points: &[TexturePoint]| {
-        Ok(points.iter().map(&value).map(|[r, g, b]| [r, g, b, 1.0]).collect())
-    };
+    let mut values =
+        |_, points: &[TexturePoint]| Ok(points.iter().map(&value).map(|[r, g, b]| [r, g, b, 1.0]).collect());
     displace(scene, &mut values).unwrap().meshes.iter().next().unwrap().2.clone()
 }
 
