@@ -15,6 +15,7 @@ mod emission;
 mod environment;
 mod far_noise;
 mod floor;
+mod errata;
 mod furnace;
 mod geometry;
 mod glass;
