@@ -260,3 +260,19 @@ fn procedures_have_slopes_too() {
         expect_normals(&render(&s), &format!("{rule:?}"), 2e-3, |_| Some(expected));
     }
 }
+
+#[test]
+fn a_slope_on_a_disk_is_radial() {
+    let mut s = facing();
+    s.camera.projection = Projection::pinhole(2.0 * (0.2_f32).atan().to_degrees());
+    let texture = ramp(&mut s, 64, true);
+    let m = bumped(&mut s, texture, 0.5, Derivative::Kernel);
+    s.disk(Vec3::new(0.0, 0.0, -4.0), Vec3::Z, 2.0, m);
+    // v falls from 1 in the middle to 0 at the rim: a cone
+    let expected = |i: usize| {
+        let at = |k: usize| (2.0 * (k as f64 + 0.5) / 9.0 - 1.0) * 0.8;
+        let radial = DVec3::new(at(i % 9), -at(i / 9), 0.0);
+        (radial.length() > 0.2).then(|| radial.normalize() * (0.5 / 2.0) + DVec3::Z)
+    };
+    expect_normals(&render(&s), "disk", 3e-3, expected);
+}
