@@ -276,3 +276,36 @@ fn a_slope_on_a_disk_is_radial() {
     };
     expect_normals(&render(&s), "disk", 3e-3, expected);
 }
+
+#[test]
+fn a_blended_seam_has_no_crease_of_bumps() {
+    // A height that jumps where u goes from 1 to 0, seen from +x; columns 3 and 4 are on both sides of the seam
+    let crease = |seam_blend: f32| {
+        let mut s = scene(8, 1, 1);
+        s.render.sampler = Sampler::Center;
+        s.camera = look(Vec3::new(6.0, 0.0, 0.0), Vec3::ZERO, 0.4);
+        let picture = ramp(&mut s, 256, false);
+        let Texture::Image(image) = &mut s.textures[picture] else { panic!("a picture") };
+        image.wrap = [Wrap::Repeat; 2];
+        let mapping = Mapping {
+            kind: MappingKind::Uv,
+            space: MappingSpace::Object,
+            mapping_from_space: Affine3A::IDENTITY,
+            pole_u: 0.0,
+            seam_blend,
+            sharpness: 1.0,
+        };
+        let value = Value::Texture(picture);
+        let texture = s.textures.add("mapped", Texture::Mapped { value, mapping });
+        let m = bumped(&mut s, texture, 0.3, Derivative::Kernel);
+        s.materials[m].detail.keep_visible = false;
+        s.sphere(Vec3::ZERO, 1.0, m);
+        let normals = render(&s).normal;
+        let [left, right] = [3, 4].map(|i| DVec3::from_array(normals[i].map(f64::from)));
+        assert!(left.length() > 0.99 && right.length() > 0.99);
+        // Neither a crease between both nor a wall: the height grows by 0.3 in a turn
+        left.distance(right).max((left - DVec3::X).length())
+    };
+    assert!(crease(0.1) < 0.1, "{}", crease(0.1));
+    assert!(crease(0.0) > 0.5, "{}", crease(0.0));
+}
