@@ -6,13 +6,6 @@
 #include "base/random.glsl"
 #include "detail/opacity.glsl"
 
-TextureContext opacity_context(Surface s)
-{
-    TextureContext context = context_at(s.position, s.uv, s.normal);
-    context.object_position = s.object_position;
-    return context;
-}
-
 // Whether a ray is stopped by a surface that is there to the part `opacity`. The draw is a hash of what is met, as the order
 // in which a ray meets things depends on the trees; a sphere is met twice.
 bool opacity_stops(uint key, Surface s, float opacity, vec3 direction)
@@ -26,7 +19,7 @@ bool opacity_stops(uint key, Surface s, float opacity, vec3 direction)
 bool passing_ends(inout Passing passing, Surface s, vec3 direction)
 {
     Detail detail = detail_fetch(s.material);
-    TextureContext context = opacity_context(s);
+    TextureContext context = surface_context(s, s.normal);
     float opacity = opacity_at(detail, context);
 #ifdef ANY_HIT
     passing.through *= 1.0 - opacity;

@@ -1,6 +1,7 @@
 // From a hit to the point on the surface that shading needs.
 #include "geometry/surface_triangle.glsl"
 #include "geometry/surface_quadric.glsl"
+#include "texture/context.glsl"
 
 // The surface that a ray met: triangle and instance as in Hit.
 Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 direction)
@@ -28,4 +29,13 @@ Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 dire
     s.object_normal = object_normal(place, s.normal);
     s.softened = false;
     return s;
+}
+
+// What a texture is told of a surface, without the width of a pixel.
+TextureContext surface_context(Surface s, vec3 normal)
+{
+    TextureContext context = context_at(s.position, s.uv, normal);
+    context.object_position = s.object_position;
+    context.object_normal = s.object_normal;
+    return context;
 }

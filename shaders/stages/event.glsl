@@ -32,13 +32,11 @@ TextureContext sharp(TextureContext context)
     return context;
 }
 
-// What a texture is told of a surface: with the width of the pixel there. Where the ray is slanted the pixel is longer than wide:
+// The same with the width of the pixel there. Where the ray is slanted the pixel is longer than wide:
 // the width is the side of a square of its area.
 TextureContext context_of(Surface surface, WaveRay ray, vec3 facing_normal)
 {
-    TextureContext context = context_at(surface.position, surface.uv, facing_normal);
-    context.object_position = surface.object_position;
-    context.object_normal = surface.object_normal;
+    TextureContext context = surface_context(surface, facing_normal);
 #ifdef HAS_FOOTPRINT
     float width = ray.width + ray.spread * distance(ray.origin, surface.position);
     context.footprint = width * inversesqrt(max(abs(dot(ray.direction, surface.geometric)), LEAST_SLANT));

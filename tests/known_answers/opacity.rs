@@ -160,3 +160,42 @@ fn a_lamp_that_is_half_there_is_half_as_bright() {
     let filter = Vec3::new(0.9, 0.6, 0.3);
     expect_same(lit(None, Some(filter)), scaled(whole, filter.to_array().map(f64::from)), 0.0);
 }
+
+#[test]
+fn an_opacity_is_mapped_as_a_colour_is() {
+    // Triplanar in object space, whose normal is not that of the world: as a colour, and as a cut-out of white
+    let seen = |cut: bool| {
+        let mut s = scene(32, 32, 1);
+        s.render.sampler = Sampler::Center;
+        let texels = Texels::Rgba8(vec![[0, 0, 0, 255], [255; 4], [255; 4], [0, 0, 0, 255]]);
+        let picture =
+            s.picture(Image { width: 2, height: 2, texels }, |texture| texture.filter = TexelFilter::Nearest);
+        let mapping = Mapping {
+            kind: MappingKind::Triplanar,
+            space: MappingSpace::Object,
+            mapping_from_space: Affine3A::from_scale(Vec3::splat(3.0)),
+            pole_u: 0.0,
+            seam_blend: 0.0,
+            sharpness: 8.0,
+        };
+        let value = Value::Texture(picture);
+        let texture = Value::Texture(s.textures.add("mapped", Texture::Mapped { value, mapping }));
+        let m = s.unlit(if cut { grey(1.0) } else { texture });
+        if cut {
+            let Value::Texture(handle) = texture else { panic!("a texture") };
+            let value = Value::Texture(handle);
+            s.materials[m].detail.opacity = Opacity { value, cutoff: Some(0.5), ..Opacity::default() };
+        }
+        let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)].map(|(x, z)| Vec3::new(x, 0.0, z));
+        let mesh =
+            Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
+        let mesh = s.meshes.add("floor", mesh);
+        let upright = Affine3A::from_rotation_x(std::f32::consts::FRAC_PI_2);
+        s.place(mesh, m, Affine3A::from_translation(Vec3::Z * -1.5) * upright);
+        render(&s).rgb
+    };
+    let (color, cut) = (seen(false), seen(true));
+    assert_eq!(color, cut);
+    let white = color.iter().filter(|rgb| rgb[0] == 1.0).count();
+    assert!(white > 100 && white < 900, "{white}");
+}
