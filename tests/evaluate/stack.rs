@@ -4,6 +4,7 @@ use super::evaluate;
 use super::trees::points;
 use crate::common::random::Random;
 use crate::common::render::scene;
+use crate::common::twins::texture::wrapped;
 use dapple::layout::{Backend, TexturePoint};
 use dapple::scene::{
     Channel, ColorSpace, Coordinates, Handle, Image, PatternSpace, Scene, StackTexture, Texels, Texture, Wrap,
@@ -62,19 +63,6 @@ fn a_ramp_is_exact_between_the_centres_of_texels() {
     // Beyond the centres at the edges the value stays
     let found = values(&scene, handle, &[Vec3::new(-3.0, 0.5, 7.0)])[0];
     assert!((found[0] - 0.1).abs() < 1e-6 && (found[2] - 2.5 / 3.0).abs() < 1e-6, "{found:?}");
-}
-
-fn wrapped(i: i64, n: i64, wrap: Wrap) -> Option<usize> {
-    let inside = match wrap {
-        Wrap::Repeat => i.rem_euclid(n),
-        Wrap::Clamp => i.clamp(0, n - 1),
-        Wrap::Mirror => {
-            let j = i.rem_euclid(2 * n);
-            if j < n { j } else { 2 * n - 1 - j }
-        }
-        Wrap::Black => return (0..n).contains(&i).then_some(i as usize),
-    };
-    Some(inside as usize)
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Pictures on surfaces: which texel, between texels, outside the picture.
 
 use crate::common::render::*;
+use crate::common::twins::texture::wrapped;
 use dapple::film::Picture;
 use dapple::scene::*;
 use glam::{Vec2, Vec3};
@@ -39,19 +40,6 @@ fn show(
         .map(|i| (at(i % size, low.x, high.x), at(size - 1 - i / size, low.y, high.y)))
         .collect();
     (render(&s), uvs)
-}
-
-fn wrapped(i: i64, n: i64, wrap: Wrap) -> Option<usize> {
-    let inside = match wrap {
-        Wrap::Repeat => i.rem_euclid(n),
-        Wrap::Clamp => i.clamp(0, n - 1),
-        Wrap::Mirror => {
-            let j = i.rem_euclid(2 * n);
-            if j < n { j } else { 2 * n - 1 - j }
-        }
-        Wrap::Black => return (0..n).contains(&i).then_some(i as usize),
-    };
-    Some(inside as usize)
 }
 
 /// A texel by the definition of wrapping, row 0 on top.

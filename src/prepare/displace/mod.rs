@@ -11,7 +11,7 @@ use crate::scene::{
     Texture,
 };
 use crate::{Error, Result};
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Affine3A, Mat3A, Vec2, Vec3};
 use refine::{Refined, Vertex};
 use std::collections::HashMap;
 
@@ -94,7 +94,9 @@ fn moved(
     values: &mut Values<'_>,
 ) -> Result<Mesh> {
     let directions = place_normals(&refined);
-    let points: Vec<_> = refined.vertices.iter().map(|v| point(&refined, v, &directions, world)).collect();
+    let normal_map = world.matrix3.inverse().transpose();
+    let points: Vec<_> =
+        refined.vertices.iter().map(|v| point(&refined, v, &directions, world, &normal_map)).collect();
     let colors = values(displacement.texture, &points)?;
     if colors.len() != points.len() {
         return Err(Error::device("a texture gave the wrong number of heights"));
@@ -142,9 +144,15 @@ fn moved(
 }
 
 /// Where the texture is asked for the height of a vertex.
-fn point(refined: &Refined, vertex: &Vertex, directions: &[Vec3], world: &Affine3A) -> TexturePoint {
+fn point(
+    refined: &Refined,
+    vertex: &Vertex,
+    directions: &[Vec3],
+    world: &Affine3A,
+    normal_map: &Mat3A,
+) -> TexturePoint {
     let position = refined.places[vertex.place as usize];
-    let normal = world.matrix3.inverse().transpose() * directions[vertex.place as usize];
+    let normal = *normal_map * directions[vertex.place as usize];
     TexturePoint {
         position: world.transform_point3(position).to_array(),
         object_position: position.to_array(),

@@ -172,7 +172,7 @@ fn between(a: Vertex, b: Vertex, place: u32, position: Vec3, round: bool) -> Ver
 }
 
 /// Longitude about +z from +x and latitude of a point on the unit sphere, as texture coordinates.
-pub(super) fn sphere_uv(p: Vec3) -> Vec2 {
+fn sphere_uv(p: Vec3) -> Vec2 {
     let turns = f64::from(p.y).atan2(f64::from(p.x)) / std::f64::consts::TAU;
     let latitude = f64::from(p.z).atan2(f64::from(p.x).hypot(f64::from(p.y))) / std::f64::consts::PI;
     Vec2::new(turns as f32, (latitude + 0.5) as f32)
