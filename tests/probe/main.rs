@@ -6,6 +6,7 @@ mod common;
 mod base;
 mod camera;
 mod choice;
+mod flat_light;
 mod fresnel;
 mod geometry;
 mod ggx;
