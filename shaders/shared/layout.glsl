@@ -87,6 +87,7 @@ const uint FRESNEL_EXACT = 1u; // Conductor rule: conductor with eta 1 and the k
 const uint FRESNEL_SCHLICK = 2u; // Conductor rule: Schlick's approximation.
 const uint FRESNEL_NONE = 3u; // Conductor rule: the same at every angle.
 const uint PUPIL_INTERVALS = 64u; // Intervals of the distance from the middle of the film that have bounds of the exit pupil of their own.
+const uint FILTER_CELLS = 128u; // Cells of a pixel filter from its middle to its radius, a power of two.
 const uint LIGHT_POINT = 0u; // Light kind: point light.
 const uint LIGHT_SPOT = 1u; // Light kind: spot light.
 const uint LIGHT_DISTANT = 2u; // Light kind: parallel light.
@@ -176,7 +177,9 @@ struct Frame {
     uvec2 environment_size; // columns and rows of the importance table of the environment
     uint parked_stack; // entries of the stack of a parked ray
     uint point_count; // points of the evaluate and probe kernels
-    uvec3 spare; // room
+    uint filter_cells; // first word of `lens` with the cells of the pixel filter
+    float filter_weight; // magnitude of the pixel filter over its whole, by which samples are weighted
+    uint spare; // room
     uint camera_medium; // material of the glass around the camera, or NONE
 };
 
@@ -722,6 +725,23 @@ PupilBounds pupil_bounds_unpack(uvec4 w0)
     PupilBounds r;
     r.low = uintBitsToFloat(uvec2(w0.x, w0.y));
     r.high = uintBitsToFloat(uvec2(w0.z, w0.w));
+    return r;
+}
+
+struct FilterCell {
+    float below; // share of the magnitude in the cells before
+    float share; // share of the magnitude in this one
+    float sign; // 1, or -1 where the filter is negative
+    uint spare; // room
+};
+const uint FILTER_CELL_WORDS = 1u;
+FilterCell filter_cell_unpack(uvec4 w0)
+{
+    FilterCell r;
+    r.below = uintBitsToFloat(w0.x);
+    r.share = uintBitsToFloat(w0.y);
+    r.sign = uintBitsToFloat(w0.z);
+    r.spare = w0.w;
     return r;
 }
 

@@ -185,6 +185,8 @@ constants! {
     FRESNEL_NONE = 3;
     /// Intervals of the distance from the middle of the film that have bounds of the exit pupil of their own.
     PUPIL_INTERVALS = 64;
+    /// Cells of a pixel filter from its middle to its radius, a power of two.
+    FILTER_CELLS = 128;
     /// Light kind: point light.
     LIGHT_POINT = 0;
     /// Light kind: spot light.

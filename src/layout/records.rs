@@ -123,8 +123,12 @@ records! {
         parked_stack: u32,
         /// points of the evaluate and probe kernels
         point_count: u32,
+        /// first word of `lens` with the cells of the pixel filter
+        filter_cells: u32,
+        /// magnitude of the pixel filter over its whole, by which samples are weighted
+        filter_weight: f32,
         /// room
-        spare: [u32; 3],
+        spare: u32,
         /// material of the glass around the camera, or NONE
         camera_medium: u32,
     }

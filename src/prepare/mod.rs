@@ -15,6 +15,7 @@ mod lights;
 mod materials;
 mod medium;
 mod motion;
+mod pixel_filter;
 mod places;
 mod pyramid;
 mod tangents;
@@ -203,6 +204,7 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
         out.camera_medium = medium::around_camera(scene);
     }
     lens::prepare(scene, &mut out)?;
+    pixel_filter::prepare(&scene.film.filter, &mut out.lens)?;
     units::choose(scene, &textures, &receivers, lamps, &mut out);
     Ok(out)
 }

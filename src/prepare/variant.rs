@@ -100,12 +100,8 @@ const SAMPLERS: [(&str, Sampler); 5] = [
     ("SAMPLER_SOBOL", Sampler::Sobol),
 ];
 
-const FILTERS: [(&str, FilterKind); 4] = [
-    ("FILTER_BOX", FilterKind::Box),
-    ("FILTER_TENT", FilterKind::Tent),
-    ("FILTER_GAUSSIAN", FilterKind::Gaussian),
-    ("FILTER_BLACKMAN_HARRIS", FilterKind::BlackmanHarris),
-];
+const FILTERS: [&str; 5] =
+    ["FILTER_BOX", "FILTER_TENT", "FILTER_GAUSSIAN", "FILTER_BLACKMAN_HARRIS", "FILTER_TABLE"];
 
 const CAMERAS: [&str; 5] =
     ["CAMERA_PERSPECTIVE", "CAMERA_ORTHOGRAPHIC", "CAMERA_EQUIRECTANGULAR", "CAMERA_FISHEYE", "CAMERA_LENS"];
@@ -185,12 +181,17 @@ pub fn defines(
     }
     let features = &prepared.features;
     if stage == Stage::Camera {
-        for (i, (name, kind)) in FILTERS.iter().enumerate() {
+        for (i, name) in FILTERS.iter().enumerate() {
             set(name, i.to_string());
-            if *kind == scene.film.filter.kind {
-                set("FILTER", i.to_string());
-            }
         }
+        let filter = match scene.film.filter.kind {
+            FilterKind::Box => 0,
+            FilterKind::Tent => 1,
+            FilterKind::Gaussian => 2,
+            FilterKind::BlackmanHarris => 3,
+            FilterKind::Mitchell { .. } | FilterKind::Sinc { .. } => 4,
+        };
+        set("FILTER", filter.to_string());
         camera(scene, &mut set);
     }
     let mut flag = |name: &str, on: bool| {
@@ -198,6 +199,8 @@ pub fn defines(
             _ = all.insert(name.to_owned(), "1".to_owned());
         }
     };
+    let signed = matches!(scene.film.filter.kind, FilterKind::Mitchell { .. } | FilterKind::Sinc { .. });
+    flag("SIGNED_FILTER", stage == Stage::Film && signed);
     flag("HAS_TIME", has_time(features, stage));
     flag("HAS_MOTION", features.moves && (stage.traverses() || stage == Stage::Shade));
     flag("MOVING_CAMERA", features.camera_moves && matches!(stage, Stage::Camera | Stage::Shade));

@@ -133,7 +133,7 @@ fn lobes() -> Scene {
     scene.environment = surroundings(constant(1.0));
     scene.film.transparent = true;
     scene.render.sampler = Sampler::Random;
-    scene.film.filter.kind = FilterKind::BlackmanHarris;
+    scene.film.filter.kind = FilterKind::Mitchell { b: 0.3, c: 0.3 };
     scene
 }
 

@@ -30,8 +30,19 @@ pub(super) const NAMED: &[&str] = &["texture", "material", "mesh"];
 /// Lists of tables.
 pub(super) const LISTS: &[&str] = &["shape", "instance", "light"];
 
-pub(super) const FILM: &[&str] =
-    &["size", "crop", "filter", "filter_radius", "exposure", "tone_curve", "png_bits", "transparent"];
+pub(super) const FILM: &[&str] = &[
+    "size",
+    "crop",
+    "filter",
+    "filter_radius",
+    "filter_b",
+    "filter_c",
+    "filter_tau",
+    "exposure",
+    "tone_curve",
+    "png_bits",
+    "transparent",
+];
 
 pub(super) const RENDER: &[&str] = &[
     "spp",

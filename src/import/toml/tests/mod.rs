@@ -1,8 +1,8 @@
 //! The reader as a whole, on files in memory. Here: defaults, and a scene that has every key.
 
 mod damage;
-mod exposure;
 mod files;
+mod film;
 mod manual;
 mod materials;
 mod patterns;
@@ -173,12 +173,6 @@ fn cameras_of_every_kind() {
     };
     assert_eq!((lens.stop_diameter, lens.sensor_diagonal, lens.opening.blades), (5.0, 43.0, 5));
     assert_eq!((lens.dispersion, lens.measure), (false, Measure::Irradiance));
-}
-
-#[test]
-fn filters_have_radii_of_their_own() {
-    let radius = |name: &str| read(&format!("[film]\nfilter = \"{name}\"")).unwrap().0.film.filter.radius;
-    assert_eq!(["box", "tent", "gaussian", "blackman_harris"].map(radius), [0.5, 1.0, 1.5, 1.5]);
 }
 
 #[test]
