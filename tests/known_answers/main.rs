@@ -10,6 +10,7 @@
 mod common;
 
 mod camera;
+mod cones;
 mod displacement;
 mod emission;
 mod environment;

@@ -7,6 +7,7 @@ mod base;
 mod camera;
 mod choice;
 mod flat_light;
+mod cone;
 mod fresnel;
 mod geometry;
 mod ggx;
