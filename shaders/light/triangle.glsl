@@ -1,6 +1,8 @@
 // A triangle: uniform over the solid angle that it fills (Arvo 1995; the part of it by a half vector, Peters 2021,
 // section 3). One too small for that to be exact, or nearly a hemisphere: uniform over its area.
+// Switches of the variant: HAS_VERTEX_COLOR, HAS_UV1.
 #include "light/sample.glsl"
+#include "texture/corners.glsl"
 
 struct SphericalTriangle {
     vec3 a; vec3 b; vec3 c;           // directions to its vertices
@@ -54,6 +56,21 @@ vec2 triangle_meeting(Light light, vec3 from, vec3 direction)
     return at / max(at.x + at.y, 1.0);
 }
 
+#if defined(HAS_VERTEX_COLOR) || defined(HAS_UV1)
+// What the corners of a triangle have for textures alone.
+void light_corners(uint extra, vec2 bary, inout TextureContext context)
+{
+    if ((extra & LIGHT_TURNED) != 0u) bary = bary.yx;
+    extra &= ~LIGHT_TURNED;
+#ifdef HAS_VERTEX_COLOR
+    context.vertex_color = corner_color(extra, bary);
+#endif
+#ifdef HAS_UV1
+    context.uv1 = corner_uv(corner_uvs(extra), bary);
+#endif
+}
+#endif
+
 LightSample triangle_sample_light(Light light, vec3 from, vec2 u01)
 {
     SphericalTriangle t = spherical_triangle(light, from);
@@ -63,7 +80,11 @@ LightSample triangle_sample_light(Light light, vec3 from, vec2 u01)
     vec3 normal = light_plane_normal(light);
     vec2 uv = light.uv0 + at.x * light.uv1 + at.y * light.uv2;
     float pdf = spherical ? 1.0 / t.solid_angle : area_to_solid_angle(light.b, from, point, normal);
-    return light_surface_point(light, from, point, normal, pdf, uv);
+    TextureContext context = context_at(point, uv, normal);
+#if defined(HAS_VERTEX_COLOR) || defined(HAS_UV1)
+    if (light.extra != NONE) light_corners(light.extra, at, context);
+#endif
+    return light_surface_point(light, from, pdf, context);
 }
 
 float triangle_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)

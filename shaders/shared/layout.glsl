@@ -76,6 +76,9 @@ const uint DETAIL_SOFT_TERMINATOR = 2u; // Detail flag: the light at the edge of
 const uint DETAIL_VISIBLE = 4u; // Detail flag: a normal that is turned away from the viewer is turned back.
 const uint DETAIL_VERTEX_TANGENTS = 8u; // Detail flag: tangents of a normal map are those of the vertices.
 const uint DETAIL_GREEN_DOWN = 16u; // Detail flag: green in a normal map is down.
+const uint DETAIL_FRONT_ONLY = 32u; // Detail flag: the surface is there from its front alone.
+const uint DETAIL_HEIGHT_UV1 = 64u; // Detail flag: the picture of a bump map is placed by the second uv.
+const uint DETAIL_NORMAL_UV1 = 128u; // Detail flag: the picture of a normal map is placed by the second uv.
 const uint DERIVATIVE_FORWARD = 0u; // Rule of a derivative: forward differences.
 const uint DERIVATIVE_KERNEL = 1u; // Rule of a derivative: the 3 × 3 kernel over texels.
 const uint DERIVATIVE_BILINEAR = 2u; // Rule of a derivative: that of the bilinear surface between texels.
@@ -95,6 +98,7 @@ const uint LIGHT_SPHERE = 3u; // Light kind: sphere or ellipsoid.
 const uint LIGHT_QUAD = 4u; // Light kind: rectangle or parallelogram.
 const uint LIGHT_DISK = 5u; // Light kind: disk; edges are its radii.
 const uint LIGHT_TRIANGLE = 6u; // Light kind: triangle of a mesh.
+const uint LIGHT_TURNED = 2147483648u; // Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
 const uint TEXELS_RGBA8 = 0u; // Texel format: a word holds 2×2 texels of 8 bits a channel.
 const uint TEXELS_RGBA8_SRGB = 1u; // Texel format: the same; colour is decoded before it is filtered.
 const uint TEXELS_RGBA16F = 2u; // Texel format: a word holds 2×1 texels of halves.
@@ -227,14 +231,46 @@ Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
 
 struct Face {
     uvec3 vertices; // three Vertex records
-    uint spare; // room
+    uint extra; // word of `faces` with what only textures ask of its corners, or NONE: CornerColors, then CornerUvs, those that the scene uses
 };
 const uint FACE_WORDS = 1u;
 Face face_unpack(uvec4 w0)
 {
     Face r;
     r.vertices = uvec3(w0.x, w0.y, w0.z);
-    r.spare = w0.w;
+    r.extra = w0.w;
+    return r;
+}
+
+struct CornerColors {
+    vec4 a; // of the first
+    vec4 b; // of the second
+    vec4 c; // of the third
+};
+const uint CORNER_COLORS_WORDS = 3u;
+CornerColors corner_colors_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
+{
+    CornerColors r;
+    r.a = uintBitsToFloat(uvec4(w0.x, w0.y, w0.z, w0.w));
+    r.b = uintBitsToFloat(uvec4(w1.x, w1.y, w1.z, w1.w));
+    r.c = uintBitsToFloat(uvec4(w2.x, w2.y, w2.z, w2.w));
+    return r;
+}
+
+struct CornerUvs {
+    vec2 a; // of the first
+    vec2 b; // of the second
+    vec2 c; // of the third
+    vec2 spare; // room
+};
+const uint CORNER_UVS_WORDS = 2u;
+CornerUvs corner_uvs_unpack(uvec4 w0, uvec4 w1)
+{
+    CornerUvs r;
+    r.a = uintBitsToFloat(uvec2(w0.x, w0.y));
+    r.b = uintBitsToFloat(uvec2(w0.z, w0.w));
+    r.c = uintBitsToFloat(uvec2(w1.x, w1.y));
+    r.spare = uintBitsToFloat(uvec2(w1.z, w1.w));
     return r;
 }
 
@@ -412,7 +448,7 @@ struct Light {
     vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
     vec2 uv2; // uv of the third vertex less the first
     uint material; // material of a surface
-    uint spare; // room
+    uint extra; // that of the Face of a triangle, or NONE; with LIGHT_TURNED two corners changed places
 };
 const uint LIGHT_WORDS = 7u;
 Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
@@ -434,7 +470,7 @@ Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, u
     r.uv1 = uintBitsToFloat(uvec2(w5.z, w5.w));
     r.uv2 = uintBitsToFloat(uvec2(w6.x, w6.y));
     r.material = w6.z;
-    r.spare = w6.w;
+    r.extra = w6.w;
     return r;
 }
 
@@ -563,9 +599,12 @@ struct TexturePoint {
     float time; // time in the shutter interval, 0..1
     vec3 object_normal; // normal in object space
     uint reference; // the texture
+    vec2 uv1; // second texture coordinates
+    vec2 uv1_footprint; // the widths in these
+    vec4 vertex_color; // colour of the vertices, linear, with alpha
 };
-const uint TEXTURE_POINT_WORDS = 5u;
-TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4)
+const uint TEXTURE_POINT_WORDS = 7u;
+TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
 {
     TexturePoint r;
     r.position = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
@@ -578,6 +617,9 @@ TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 
     r.time = uintBitsToFloat(w3.w);
     r.object_normal = uintBitsToFloat(uvec3(w4.x, w4.y, w4.z));
     r.reference = w4.w;
+    r.uv1 = uintBitsToFloat(uvec2(w5.x, w5.y));
+    r.uv1_footprint = uintBitsToFloat(uvec2(w5.z, w5.w));
+    r.vertex_color = uintBitsToFloat(uvec4(w6.x, w6.y, w6.z, w6.w));
     return r;
 }
 

@@ -1,4 +1,4 @@
-// What the parts of a scattering event share. Switches of the variant: HAS_FOOTPRINT.
+// What the parts of a scattering event share. Switches of the variant: HAS_FOOTPRINT, HAS_UV1.
 #include "stages/wave.glsl"
 #include "base/cone.glsl"
 #include "base/offset.glsl"
@@ -32,6 +32,9 @@ TextureContext sharp(TextureContext context)
     context.footprint = 0.0;
     context.object_footprint = 0.0;
     context.uv_footprint = vec2(0.0);
+#ifdef HAS_UV1
+    context.uv1_footprint = vec2(0.0);
+#endif
     return context;
 }
 
@@ -45,6 +48,11 @@ TextureContext context_of(Surface surface, WaveRay ray, vec3 facing_normal)
     context.footprint = width * inversesqrt(max(abs(dot(ray.direction, surface.geometric)), LEAST_SLANT));
     context.object_footprint = context.footprint * surface.object_rate;
     context.uv_footprint = context.footprint * surface.uv_rate;
+#ifdef HAS_UV1
+    mat2x3 along = by_uv1(surface, surface.dpdu, surface.dpdv);
+    vec2 lengths = vec2(length(along[0]), length(along[1]));
+    context.uv1_footprint = context.footprint * mix(vec2(0.0), 1.0 / lengths, greaterThan(lengths, vec2(0.0)));
+#endif
 #endif
     return context;
 }

@@ -8,6 +8,8 @@ mod mesh;
 mod obj;
 mod ply;
 mod ply_header;
+mod ply_vertices;
+mod srgb;
 mod toml;
 mod volume;
 

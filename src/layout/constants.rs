@@ -163,6 +163,12 @@ constants! {
     DETAIL_VERTEX_TANGENTS = 8;
     /// Detail flag: green in a normal map is down.
     DETAIL_GREEN_DOWN = 16;
+    /// Detail flag: the surface is there from its front alone.
+    DETAIL_FRONT_ONLY = 32;
+    /// Detail flag: the picture of a bump map is placed by the second uv.
+    DETAIL_HEIGHT_UV1 = 64;
+    /// Detail flag: the picture of a normal map is placed by the second uv.
+    DETAIL_NORMAL_UV1 = 128;
     /// Rule of a derivative: forward differences.
     DERIVATIVE_FORWARD = 0;
     /// Rule of a derivative: the 3 × 3 kernel over texels.
@@ -201,6 +207,8 @@ constants! {
     LIGHT_DISK = 5;
     /// Light kind: triangle of a mesh.
     LIGHT_TRIANGLE = 6;
+    /// Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
+    LIGHT_TURNED = 1 << 31;
     /// Texel format: a word holds 2×2 texels of 8 bits a channel.
     TEXELS_RGBA8 = 0;
     /// Texel format: the same; colour is decoded before it is filtered.

@@ -171,8 +171,30 @@ records! {
     struct Face {
         /// three Vertex records
         vertices: [u32; 3],
+        /// word of `faces` with what only textures ask of its corners, or NONE: CornerColors, then CornerUvs, those that the scene uses
+        extra: u32,
+    }
+
+    /// Colours of the corners of a triangle, linear, with alpha.
+    struct CornerColors {
+        /// of the first
+        a: [f32; 4],
+        /// of the second
+        b: [f32; 4],
+        /// of the third
+        c: [f32; 4],
+    }
+
+    /// Second texture coordinates of the corners of a triangle.
+    struct CornerUvs {
+        /// of the first
+        a: [f32; 2],
+        /// of the second
+        b: [f32; 2],
+        /// of the third
+        c: [f32; 2],
         /// room
-        spare: u32,
+        spare: [f32; 2],
     }
 
     /// Shading data of a vertex.
@@ -331,8 +353,8 @@ records! {
         uv2: [f32; 2],
         /// material of a surface
         material: u32,
-        /// room
-        spare: u32,
+        /// that of the Face of a triangle, or NONE; with LIGHT_TURNED two corners changed places
+        extra: u32,
     }
 
     /// A cell of the importance table of the environment (alias method).

@@ -95,6 +95,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
     let Placing { placed, soup, tops, motions, deepest, .. } = placing;
     build_top(soup, tops, deepest, out)?;
     push_motions(scene, motions, out)?;
+    put_corners_behind_faces(out);
     Ok(placed)
 }
 
@@ -217,6 +218,13 @@ impl Placing<'_> {
             self.tops.push((placed.instance, placed.bounds));
         }
         self.placed.push(placed);
+    }
+}
+
+fn put_corners_behind_faces(out: &mut Prepared) {
+    let behind = out.faces.len() as u32 * layout::Face::WORDS;
+    for face in out.faces.iter_mut().filter(|face| face.extra != NONE) {
+        face.extra += behind;
     }
 }
 

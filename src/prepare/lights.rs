@@ -5,7 +5,8 @@ use super::textures::References;
 use super::triangles::{mirrors, part_materials};
 use super::{Bounds, Prepared, alias};
 use crate::layout::{
-    LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE, Light, NONE,
+    INSTANCE_MESH, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT,
+    LIGHT_TRIANGLE, LIGHT_TURNED, Light, NONE,
 };
 use crate::scene::{self, Emission, Handle, Mesh, Scene, ShapeKind, Value};
 use glam::{Affine3A, Vec2, Vec3};
@@ -81,7 +82,7 @@ pub(super) fn prepare(
         let entries = if place.moves { &mut found } else { &mut entries };
         match place.source {
             Source::Shape(i) => push_shape(scene, i, &place.world_from_object, textures, entries),
-            Source::Mesh(i) => push_mesh(scene, i, &place.world_from_object, textures, entries),
+            Source::Mesh(i) => push_mesh(scene, i, &place, textures, out, entries),
         }
         if !place.moves && entries.len() > first {
             out.instances[place.instance as usize].light = first as u32;
@@ -124,22 +125,25 @@ fn mean(c: Vec3) -> f64 {
 }
 
 fn surface_light(
+    scene: &Scene,
     emission: &Emission,
     material: Handle<scene::Material>,
     textures: &References,
     kind: u32,
 ) -> (Light, f64) {
+    let two_sided = scene.materials[material].shines_behind();
     let (radiance, texture, brightness) = match emission.radiance {
         Value::Constant(c) => (c, NONE, mean(c)),
         Value::Texture(handle) => (Vec3::ONE, textures.reference(handle), textures.mean(handle)),
     };
-    let sides = if emission.two_sided { 2.0 } else { 1.0 };
+    let sides = if two_sided { 2.0 } else { 1.0 };
     let light = Light {
         kind,
         radiance: radiance.to_array(),
         texture,
-        two_sided: u32::from(emission.two_sided),
+        two_sided: u32::from(two_sided),
         material: material.index() as u32,
+        extra: NONE,
         ..Light::default()
     };
     (light, sides * PI * brightness)
@@ -153,7 +157,7 @@ fn push_shape(scene: &Scene, index: usize, map: &Affine3A, textures: &References
         ShapeKind::Disk { .. } => LIGHT_DISK,
         ShapeKind::Quad { .. } => LIGHT_QUAD,
     };
-    let (mut light, exitance) = surface_light(emission, shape.material, textures, kind);
+    let (mut light, exitance) = surface_light(scene, emission, shape.material, textures, kind);
     light.position = Vec3::from(map.translation).to_array();
     let m = &map.matrix3;
     let (x, y, z) = (Vec3::from(m.x_axis), Vec3::from(m.y_axis), Vec3::from(m.z_axis));
@@ -185,7 +189,15 @@ fn is_sphere(x: Vec3, y: Vec3, z: Vec3) -> bool {
 }
 
 /// One light a triangle, in the order of the mesh; those that do not shine keep their place with no power.
-fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References, entries: &mut Vec<Entry>) {
+fn push_mesh(
+    scene: &Scene,
+    index: usize,
+    place: &Placed,
+    textures: &References,
+    out: &Prepared,
+    entries: &mut Vec<Entry>,
+) {
+    let map = &place.world_from_object;
     let instance = &scene.instances[index];
     let mesh = &scene.meshes[instance.mesh];
     let shines = |material| scene.materials[material].emission.is_some();
@@ -193,10 +205,22 @@ fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References,
         return;
     }
     let materials = part_materials(mesh);
+    let record = &out.instances[place.instance as usize];
+    // A mesh in its own space has its corners in its own order, and a light as it is in the world
+    let turned = if record.kind == INSTANCE_MESH && mirrors(map) { LIGHT_TURNED } else { 0 };
+    let extra = |i: usize| {
+        let face =
+            if record.first_face == NONE { None } else { out.faces.get(record.first_face as usize + i) };
+        face.map_or(NONE, |face| if face.extra == NONE { NONE } else { face.extra | turned })
+    };
     for i in 0..mesh.triangles.len() {
         let material = materials.get(i).copied().flatten().unwrap_or(instance.material);
         entries.push(match &scene.materials[material].emission {
-            Some(emission) => triangle(mesh, i, map, (emission, material), textures),
+            Some(emission) => {
+                let mut entry = triangle(scene, mesh, i, map, (emission, material), textures);
+                entry.light.extra = extra(i);
+                entry
+            }
             None => Entry {
                 light: Light { kind: LIGHT_TRIANGLE, texture: NONE, ..Light::default() },
                 power: Some(0.0),
@@ -206,13 +230,14 @@ fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References,
 }
 
 fn triangle(
+    scene: &Scene,
     mesh: &Mesh,
     index: usize,
     map: &Affine3A,
     (emission, material): (&Emission, Handle<scene::Material>),
     textures: &References,
 ) -> Entry {
-    let (mut light, exitance) = surface_light(emission, material, textures, LIGHT_TRIANGLE);
+    let (mut light, exitance) = surface_light(scene, emission, material, textures, LIGHT_TRIANGLE);
     let mut corners = mesh.triangles[index];
     let mut default = [Vec2::ZERO, Vec2::X, Vec2::ONE];
     if mirrors(map) {

@@ -6,6 +6,7 @@ mod alias;
 mod atlas;
 mod bounds;
 pub mod bvh;
+mod corners;
 mod details;
 mod displace;
 mod environment;
@@ -47,6 +48,8 @@ pub struct Prepared {
     pub triangle_count: usize,
     /// Vertices of triangles, each mesh's in its own order.
     pub faces: Vec<Face>,
+    /// Words behind the faces: what only textures ask of the corners of triangles.
+    pub corners: Vec<[u32; 4]>,
     /// Shading data of vertices.
     pub vertices: Vec<Vertex>,
     /// Shapes and meshes in the world.
@@ -103,6 +106,7 @@ impl Prepared {
         let sizes = [
             size_of_val(self.tree.as_slice()),
             size_of_val(self.faces.as_slice()),
+            size_of_val(self.corners.as_slice()),
             size_of_val(self.vertices.as_slice()),
             size_of_val(self.instances.as_slice()),
             size_of_val(self.motions.as_slice()),
@@ -172,6 +176,10 @@ pub struct Features {
     pub medium: bool,
     /// A texture that depends on the width of a pixel.
     pub footprint: bool,
+    /// A texture that depends on the colours of vertices.
+    pub vertex_color: bool,
+    /// A texture that depends on the second set of texture coordinates.
+    pub uv1: bool,
     /// A texture that depends on the time.
     pub timed_textures: bool,
     /// Things that move.

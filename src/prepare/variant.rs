@@ -212,6 +212,10 @@ pub fn defines(
         flag("HAS_OPACITY", features.opacity);
         flag("HAS_FILTER", features.filter);
     }
+    if stage.traverses() || matches!(stage, Stage::Shade | Stage::Evaluate) {
+        flag("HAS_VERTEX_COLOR", features.vertex_color);
+        flag("HAS_UV1", features.uv1);
+    }
     if stage == Stage::Shade {
         let material = |kind: u32| features.material_kinds & 1 << kind != 0;
         flag("HAS_DIFFUSE", material(MATERIAL_DIFFUSE));

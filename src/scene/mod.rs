@@ -18,7 +18,7 @@ pub use camera::{
     Aperture, Camera, FisheyeMapping, Focus, FovAxis, Lens, LensCamera, LensInterface, LensSystem, Measure,
     Opening, Paraxial, Perspective, Projection, Pupil, Stand, Stop, half_height,
 };
-pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents};
+pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Sides, Tangents};
 pub use displacement::{Displacement, DisplacementDirection, EdgeLimit};
 pub use exposure::{Exposure, Meter, Shot, ToneCurve};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};

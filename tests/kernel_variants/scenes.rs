@@ -281,6 +281,51 @@ fn trees() -> Scene {
     scene
 }
 
+/// Surfaces that are there from their front alone, and nothing else that lets rays through.
+fn fronts() -> Scene {
+    let mut scene = plain();
+    let one_sided = material(&mut scene, diffuse(0.5), Some(constant(1.0)));
+    scene.materials[one_sided].detail.sides = Sides::Front;
+    place_triangle(&mut scene, one_sided, 1);
+    place_shape(&mut scene, one_sided, sphere());
+    scene
+}
+
+/// Textures that see colours of vertices, a second set of texture coordinates, or both, wherever there are textures.
+fn corners(colors: bool, uvs: bool) -> Scene {
+    let mut scene = Scene::default();
+    let bytes = Texels::Rgba8(vec![[9, 99, 200, 255]; 2]);
+    let mut last = texture(&mut scene, bytes, ColorSpace::Srgb);
+    if colors {
+        let color = Value::Texture(scene.textures.add("color", Texture::VertexColor(Channel::Rgb)));
+        last = scene.textures.add("product", Texture::Multiply { a: color, b: Value::Texture(last) });
+    }
+    if uvs {
+        let mapping = Mapping {
+            kind: MappingKind::Uv1,
+            space: MappingSpace::Object,
+            mapping_from_space: Affine3A::IDENTITY,
+            pole_u: 0.0,
+            seam_blend: 0.5,
+            sharpness: 4.0,
+        };
+        last = scene.textures.add("second", Texture::Mapped { value: Value::Texture(last), mapping });
+    }
+    let value = Value::Texture(last);
+    let lamp = material(&mut scene, Surface::Diffuse { color: value }, Some(value));
+    let detail = &mut scene.materials[lamp].detail;
+    detail.opacity = Opacity { value: Value::Texture(last), cutoff: None, filter: value };
+    detail.bump = Some(Bump { texture: last, height: 1.0, derivative: Derivative::Kernel, curvature: true });
+    let (green_down, strength, tangents) = (false, 1.0, Tangents::Uv);
+    detail.normal_map = Some(NormalMap { texture: last, green_down, strength, tangents });
+    place_triangle(&mut scene, lamp, 1);
+    for kind in [sphere(), disk(), quad()] {
+        place_shape(&mut scene, lamp, kind);
+    }
+    scene.environment = surroundings(value);
+    scene
+}
+
 fn textured() -> Scene {
     let mut scene = Scene::default();
     let bytes = || Texels::Rgba8(vec![[9, 99, 200, 255]; 2]);
@@ -333,6 +378,10 @@ pub fn scenes() -> Vec<(&'static str, Scene)> {
         ("principled materials and mixes", layers()),
         ("every kind of texture", trees()),
         ("motion", moving()),
+        ("fronts without backs", fronts()),
+        ("colours of vertices", corners(true, false)),
+        ("a second set of texture coordinates", corners(false, true)),
+        ("colours and a second set", corners(true, true)),
     ];
     all.extend(cameras());
     all

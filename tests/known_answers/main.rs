@@ -11,6 +11,7 @@ mod common;
 
 mod camera;
 mod cones;
+mod corners;
 mod displacement;
 mod emission;
 mod environment;
@@ -29,6 +30,7 @@ mod opacity;
 mod paths;
 mod planes;
 mod relief;
+mod sides;
 mod sizes;
 mod texture;
 mod traversal;

@@ -115,6 +115,7 @@ const IMAGE: &[&str] = &[
     "scale",
     "invert",
     "mapping",
+    "uv_set",
     "mapping_space",
     "mapping_transform",
     "pole",
@@ -141,6 +142,7 @@ const STACK: &[&str] = &[
 const MAPPED: &[&str] = &[
     "value",
     "mapping",
+    "uv_set",
     "mapping_space",
     "mapping_transform",
     "pole",
@@ -152,6 +154,7 @@ const MAPPED: &[&str] = &[
 /// Keys that place any texture that is looked up by u and v.
 pub(super) const MAPPING: &[&str] = &[
     "mapping",
+    "uv_set",
     "mapping_space",
     "mapping_transform",
     "pole",
@@ -213,6 +216,7 @@ pub(super) const TEXTURE: Kinds = Kinds {
         ("stack", STACK),
         ("glsl", &["file", "source", "parameters", "max"]),
         ("constant", &["color"]),
+        ("vertex_color", &["channel"]),
         ("checker", &["even", "odd", "dimensions", "space", "transform", "filter_width"]),
         ("noise", NOISE),
         ("fbm", FRACTAL),
@@ -265,6 +269,7 @@ pub(super) const MATERIAL: Kinds = Kinds {
         "opacity",
         "opacity_cutoff",
         "filter_color",
+        "sides",
         "bump",
         "normal_map",
         "soften_terminator",
@@ -293,8 +298,19 @@ pub(super) const NORMAL_MAP: &[&str] = &["texture", "green", "strength", "tangen
 pub(super) const DISPLACEMENT: &[&str] =
     &["texture", "height", "offset", "direction", "edge_length", "edge_pixels", "max_triangles"];
 
-pub(super) const MESH: &[&str] =
-    &["displacement", "file", "materials", "positions", "triangles", "polygons", "normals", "uvs", "smooth"];
+pub(super) const MESH: &[&str] = &[
+    "displacement",
+    "file",
+    "materials",
+    "positions",
+    "triangles",
+    "polygons",
+    "normals",
+    "uvs",
+    "uvs1",
+    "colors",
+    "smooth",
+];
 
 const SPHERE: &[&str] = &["center", "radius", "pole", "meridian", "displacement"];
 const DISK: &[&str] = &["center", "normal", "radius", "meridian"];

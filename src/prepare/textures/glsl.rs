@@ -4,7 +4,8 @@ use super::shape::{Input, NoiseShape, Place, Shape};
 use super::user;
 use crate::layout::{NodeNumber, NoiseSum as NoiseRecord, Pattern, Ramp, Record as _, TextureInput, Wall};
 use crate::scene::{
-    Coordinates, GlslTexture, Gradient, Metric, NoiseSum, Perlin, PerlinVariant, VeinKind, WorleyFeature,
+    Channel, Coordinates, GlslTexture, Gradient, Metric, NoiseSum, Perlin, PerlinVariant, VeinKind,
+    WorleyFeature,
 };
 use std::fmt::Write as _;
 
@@ -54,6 +55,16 @@ impl Shape {
                 format!("stack_texture(at + {}u, {}u, {point})", Pattern::WORDS, format.number())
             }
             Self::Constant => "texture_constant(at)".to_owned(),
+            Self::VertexColor(channel) => {
+                let lanes = match channel {
+                    Channel::Rgb => "rgb",
+                    Channel::R => "rrr",
+                    Channel::G => "ggg",
+                    Channel::B => "bbb",
+                    Channel::A => "aaa",
+                };
+                format!("vec4(context.vertex_color.{lanes}, context.vertex_color.a)")
+            }
             Self::Checker(place, dimensions, of) => {
                 let (point, of) = (place.point(), inputs(of));
                 match place.filtered {

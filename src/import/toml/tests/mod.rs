@@ -1,5 +1,6 @@
 //! The reader as a whole, on files in memory. Here: defaults, and a scene that has every key.
 
+mod corners;
 mod damage;
 mod files;
 mod film;

@@ -52,8 +52,6 @@ fn uv_scale(item: Item<'_>) -> Result<Vec2> {
 
 /// How the numbers of a picture are meant, which channel is given, the factor on it, and whether it is inverted.
 pub(super) fn shading(view: &View<'_>, image: &Image) -> Result<(ColorSpace, Channel, f32, bool)> {
-    let channels =
-        [("rgb", Channel::Rgb), ("r", Channel::R), ("g", Channel::G), ("b", Channel::B), ("a", Channel::A)];
     let usual = match image.texels {
         Texels::Rgba8(_) | Texels::Rgba16(_) => ColorSpace::Srgb,
         Texels::RgbaF32(_) => ColorSpace::Linear,
@@ -61,8 +59,15 @@ pub(super) fn shading(view: &View<'_>, image: &Image) -> Result<(ColorSpace, Cha
     let spaces = [("srgb", ColorSpace::Srgb), ("linear", ColorSpace::Linear)];
     Ok((
         view.choice_or("color_space", usual, &spaces)?,
-        view.choice_or("channel", Channel::Rgb, &channels)?,
+        channel(view)?,
         view.f32_or("scale", 1.0, Limits::AtLeast(0.0))?,
         view.bool_or("invert", false)?,
     ))
+}
+
+/// Which channel is given.
+pub(super) fn channel(view: &View<'_>) -> Result<Channel> {
+    let channels =
+        [("rgb", Channel::Rgb), ("r", Channel::R), ("g", Channel::G), ("b", Channel::B), ("a", Channel::A)];
+    view.choice_or("channel", Channel::Rgb, &channels)
 }
