@@ -1,7 +1,7 @@
 //! What only textures ask of the corners of triangles: colours, and a second set of texture coordinates.
 
-use super::Features;
-use crate::layout::{CornerColors, CornerUvs};
+use super::{Features, Prepared};
+use crate::layout::{CornerColors, CornerUvs, Face, NONE, Record as _};
 use crate::scene::Mesh;
 use glam::{Vec2, Vec4};
 
@@ -33,4 +33,12 @@ pub(super) fn words(
         bytemuck::cast::<_, [[u32; 4]; 2]>(CornerUvs { a, b, c, spare: [0.0; 2] })
     });
     colors.into_iter().flatten().chain(uvs.into_iter().flatten())
+}
+
+/// Moves the words of faces to where they are once all of them are behind the faces.
+pub(super) fn put_behind_faces(out: &mut Prepared) {
+    let behind = out.faces.len() as u32 * Face::WORDS;
+    for face in out.faces.iter_mut().filter(|face| face.extra != NONE) {
+        face.extra += behind;
+    }
 }

@@ -40,7 +40,7 @@ fn expect_width(s: &Scene, width: f64) {
 fn mirrors_spread_and_focus() {
     // A parallel beam of width w leaves a sphere of radius R with the spread 2 w / R, and a hollow one with −2 w / R
     for (width, radius, wall) in
-        [(0.25, 2.0, 3.0), (0.125, 1.0, 9.0), (0.5, -4.0, 1.5), (0.5, -4.0, 9.0), (0.75, 0.0, 9.0)]
+        [(0.25, 2.0, 3.0), (0.125, 1.0, 9.0), (0.5, -4.0, 1.5), (0.5, -4.0, 6.0), (0.75, 0.0, 9.0)]
     {
         let mut s = beam(width);
         let mirror = s.conductor(1.0, 0.0, Fresnel::None);
@@ -54,9 +54,6 @@ fn mirrors_spread_and_focus() {
         // A hollow sphere is around its wall
         s.quad(Vec3::new(-1.0, -1.0, wall - 1.0), Vec3::X * 2.0, Vec3::Y * 2.0, pattern);
         let spread = if radius == 0.0 { 0.0 } else { 2.0 * width / radius };
-        if radius < 0.0 && wall > -2.0 * radius {
-            continue;
-        }
         expect_width(&s, f64::from((width + spread * wall).abs()));
     }
 }
