@@ -19,6 +19,9 @@ LightSample light_sample_one(Light light, vec3 from, vec2 u01)
 #ifdef HAS_LIGHT_DISTANT
     case LIGHT_DISTANT: return distant_sample(light);
 #endif
+#ifdef HAS_LIGHT_PROJECTION
+    case LIGHT_PROJECTION: return projection_sample(light, from);
+#endif
 #ifdef HAS_LIGHT_SPHERE
     case LIGHT_SPHERE: return sphere_sample_light(light, from, u01);
 #endif
@@ -55,6 +58,9 @@ LightSample light_sample(vec3 from, float pick, vec2 u01)
     if (!own) light = light_fetch(light.alias);
     LightSample s = light_sample_one(light, from, u01);
     s.pdf *= light.chance;
+#ifdef TEXTURED_LIGHTS
+    if (s.delta && s.pdf > 0.0 && light.texture != NONE) s.radiance *= punctual_texture(light, from, s.wi);
+#endif
     return s;
 #else
     return LIGHT_NOTHING;

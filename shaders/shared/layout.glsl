@@ -112,6 +112,7 @@ const uint WRAP_V_SHIFT = 2u; // Position of the wrap mode along v in the flags 
 const uint WRAP_W_SHIFT = 6u; // Position of the wrap mode across the slices in the flags of a stack.
 const uint FLAG_NEAREST = 16u; // Flag of an image texture: the nearest texel in place of bilinear filtering.
 const uint FLAG_INVERT = 32u; // Flag of an image texture: 1 less the colour.
+const uint FLAG_OCTAHEDRAL = 4096u; // Flag of an image texture: an octahedral map, beyond whose edges its sphere goes on; in place of the wrap modes.
 const uint CHANNEL_SHIFT = 8u; // Position of the channel in the flags of an image texture.
 const uint CHANNEL_MASK = 15u; // Bits of the channel in the flags of an image texture, moved down to bit 0.
 const uint LEVELS_SHIFT = 16u; // Position of the number of levels in the flags of an image texture; nothing is above it.
@@ -437,13 +438,13 @@ struct Light {
     float accept; // share of its slot of the alias table that is its own
     uint alias; // the light that has the rest of the slot
     vec3 position; // position, centre, corner or first vertex
-    float a; // radius (0: ellipsoid); -1 when a flat light faces against u × v; cosine of a spot's inner cone
-    vec3 edge_u; // first edge, axis, or second vertex less the first
-    float b; // cosine of the outer cone of a spot; area of a surface
-    vec3 edge_v; // second edge, or third vertex less the first
+    float a; // radius (0: ellipsoid); -1 if a flat light faces against u × v; cosine of a spot's inner cone; half-width of a projection
+    vec3 edge_u; // first edge, second vertex less the first, or direction of a light without extent
+    float b; // area of a surface; cosine of the outer cone of a spot; half-height of a projection, both at distance 1
+    vec3 edge_v; // second edge, third vertex less the first, or what is up for the texture of a light without extent
     uint two_sided; // 1 when it shines on both sides
-    vec3 radiance; // radiance, intensity or irradiance
-    uint texture; // texture of the radiance, or NONE
+    vec3 radiance; // radiance, intensity or irradiance, or a factor on that of its texture
+    uint texture; // its texture, or NONE
     vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a sphere
     vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
     vec2 uv2; // uv of the third vertex less the first

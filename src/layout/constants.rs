@@ -209,6 +209,8 @@ constants! {
     LIGHT_TRIANGLE = 6;
     /// Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
     LIGHT_TURNED = 1 << 31;
+    /// Light kind: picture thrown from a point.
+    LIGHT_PROJECTION = 7;
     /// Texel format: a word holds 2×2 texels of 8 bits a channel.
     TEXELS_RGBA8 = 0;
     /// Texel format: the same; colour is decoded before it is filtered.
@@ -235,6 +237,8 @@ constants! {
     FLAG_NEAREST = 16;
     /// Flag of an image texture: 1 less the colour.
     FLAG_INVERT = 32;
+    /// Flag of an image texture: an octahedral map, beyond whose edges its sphere goes on; in place of the wrap modes.
+    FLAG_OCTAHEDRAL = 4096;
     /// Position of the channel in the flags of an image texture.
     CHANNEL_SHIFT = 8;
     /// Bits of the channel in the flags of an image texture, moved down to bit 0.

@@ -331,19 +331,19 @@ records! {
         alias: u32,
         /// position, centre, corner or first vertex
         position: [f32; 3],
-        /// radius (0: ellipsoid); -1 when a flat light faces against u × v; cosine of a spot's inner cone
+        /// radius (0: ellipsoid); -1 if a flat light faces against u × v; cosine of a spot's inner cone; half-width of a projection
         a: f32,
-        /// first edge, axis, or second vertex less the first
+        /// first edge, second vertex less the first, or direction of a light without extent
         edge_u: [f32; 3],
-        /// cosine of the outer cone of a spot; area of a surface
+        /// area of a surface; cosine of the outer cone of a spot; half-height of a projection, both at distance 1
         b: f32,
-        /// second edge, or third vertex less the first
+        /// second edge, third vertex less the first, or what is up for the texture of a light without extent
         edge_v: [f32; 3],
         /// 1 when it shines on both sides
         two_sided: u32,
-        /// radiance, intensity or irradiance
+        /// radiance, intensity or irradiance, or a factor on that of its texture
         radiance: [f32; 3],
-        /// texture of the radiance, or NONE
+        /// its texture, or NONE
         texture: u32,
         /// uv of the first vertex of a triangle; x and y of the third axis of a sphere
         uv0: [f32; 2],
@@ -353,7 +353,8 @@ records! {
         uv2: [f32; 2],
         /// material of a surface
         material: u32,
-        /// that of the Face of a triangle, or NONE; with LIGHT_TURNED two corners changed places
+        /// of a triangle that of its Face, or NONE; with LIGHT_TURNED two corners changed places. Of a point light 1 when its texture is
+        /// an equal-area map of its directions, in place of longitude and latitude
         extra: u32,
     }
 

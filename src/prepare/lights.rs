@@ -3,10 +3,9 @@
 use super::geometry::{Placed, Source};
 use super::textures::References;
 use super::triangles::{mirrors, part_materials};
-use super::{Bounds, Prepared, alias};
+use super::{Bounds, Prepared, alias, punctual};
 use crate::layout::{
-    INSTANCE_MESH, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT,
-    LIGHT_TRIANGLE, LIGHT_TURNED, Light, NONE,
+    INSTANCE_MESH, LIGHT_DISK, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_TRIANGLE, LIGHT_TURNED, Light, NONE,
 };
 use crate::scene::{self, Emission, Handle, Mesh, Scene, ShapeKind, Value};
 use glam::{Affine3A, Vec2, Vec3};
@@ -14,9 +13,9 @@ use std::f64::consts::PI;
 
 /// A light before the table is built: its record and its power in watts; none for light from infinity. Powers of lights
 /// that floats can hold may be beyond floats.
-struct Entry {
-    light: Light,
-    power: Option<f64>,
+pub(super) struct Entry {
+    pub(super) light: Light,
+    pub(super) power: Option<f64>,
 }
 
 /// Where the camera is, at both ends of its motion.
@@ -89,7 +88,8 @@ pub(super) fn prepare(
         }
     }
     let found = found.iter().map(whole).fold(0.0, f64::max);
-    entries.extend(scene.lights.iter().map(punctual));
+    entries.extend(scene.lights.iter().map(|light| punctual::entry(scene, textures, light)));
+    punctual::note(scene, &mut out.features);
     let environment = scene.environment.is_some();
     let lamps = entries.iter().filter_map(|entry| entry.power).sum::<f64>();
     let distant = entries.iter().filter(|entry| entry.power.is_none()).count();
@@ -120,7 +120,7 @@ pub(super) fn prepare(
 }
 
 /// Mean of a colour.
-fn mean(c: Vec3) -> f64 {
+pub(super) fn mean(c: Vec3) -> f64 {
     c.as_dvec3().element_sum() / 3.0
 }
 
@@ -253,46 +253,6 @@ fn triangle(
     light.uv0 = uv(0).to_array();
     (light.uv1, light.uv2) = ((uv(1) - uv(0)).to_array(), (uv(2) - uv(0)).to_array());
     Entry { power: Some(exitance * area), light }
-}
-
-fn punctual(light: &scene::Light) -> Entry {
-    let base = Light { texture: NONE, ..Light::default() };
-    match light {
-        scene::Light::Point { position, intensity } => Entry {
-            light: Light {
-                kind: LIGHT_POINT,
-                position: position.to_array(),
-                radiance: intensity.to_array(),
-                ..base
-            },
-            power: Some(4.0 * PI * mean(*intensity)),
-        },
-        scene::Light::Spot { position, direction, intensity, cone_angle, falloff_angle } => {
-            let inner = (cone_angle - falloff_angle).to_radians().cos();
-            let outer = cone_angle.to_radians().cos();
-            Entry {
-                light: Light {
-                    kind: LIGHT_SPOT,
-                    position: position.to_array(),
-                    edge_u: direction.to_array(),
-                    radiance: intensity.to_array(),
-                    a: inner,
-                    b: outer,
-                    ..base
-                },
-                power: Some(2.0 * PI * (1.0 - 0.5 * f64::from(inner + outer)) * mean(*intensity)),
-            }
-        }
-        scene::Light::Distant { direction, irradiance } => Entry {
-            light: Light {
-                kind: LIGHT_DISTANT,
-                edge_u: direction.to_array(),
-                radiance: irradiance.to_array(),
-                ..base
-            },
-            power: None,
-        },
-    }
 }
 
 #[cfg(test)]

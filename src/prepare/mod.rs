@@ -18,6 +18,7 @@ mod medium;
 mod motion;
 mod pixel_filter;
 mod places;
+mod punctual;
 mod pyramid;
 mod tangents;
 mod textures;
@@ -149,6 +150,12 @@ pub struct Features {
     pub environment: bool,
     /// An environment from a picture.
     pub environment_image: bool,
+    /// Its picture is an equal-area map.
+    pub environment_equal_area: bool,
+    /// A light without extent that has a texture.
+    pub textured_lights: bool,
+    /// One whose texture is an equal-area map of its directions.
+    pub equal_area_lights: bool,
     /// Inputs of materials that a texture drives: two bits for each `INPUT_…`, for a colour or the first number, and for the
     /// second number.
     pub textured_inputs: u32,

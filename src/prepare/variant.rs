@@ -2,9 +2,9 @@
 
 use super::{Features, Prepared};
 use crate::layout::{
-    Backend, INPUT_EMISSION, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT,
-    LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG,
-    MATERIAL_PRINCIPLED, STACK_ENTRIES,
+    Backend, INPUT_EMISSION, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_PROJECTION, LIGHT_QUAD,
+    LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE,
+    MATERIAL_PHONG, MATERIAL_PRINCIPLED, STACK_ENTRIES,
 };
 use crate::scene::{FilterKind, FisheyeMapping, Focus, Opening, Projection, Sampler, Scene};
 use std::collections::BTreeMap;
@@ -240,12 +240,16 @@ pub fn defines(
         flag("HAS_LIGHT_POINT", light(LIGHT_POINT));
         flag("HAS_LIGHT_SPOT", light(LIGHT_SPOT));
         flag("HAS_LIGHT_DISTANT", light(LIGHT_DISTANT));
+        flag("HAS_LIGHT_PROJECTION", light(LIGHT_PROJECTION));
+        flag("TEXTURED_LIGHTS", features.textured_lights);
+        flag("EQUAL_AREA_LIGHTS", features.equal_area_lights);
         flag("HAS_LIGHT_SPHERE", light(LIGHT_SPHERE));
         flag("HAS_LIGHT_QUAD", light(LIGHT_QUAD));
         flag("HAS_LIGHT_DISK", light(LIGHT_DISK));
         flag("HAS_LIGHT_TRIANGLE", light(LIGHT_TRIANGLE));
         flag("HAS_ENVIRONMENT", features.environment);
         flag("ENVIRONMENT_IMAGE", features.environment_image);
+        flag("ENVIRONMENT_EQUAL_AREA", features.environment_equal_area);
         flag("ROULETTE", scene.render.russian_roulette);
         flag("GEOMETRIC_VETO", scene.render.geometric_veto);
         // Without an environment there is nothing to leave out: one variant less.

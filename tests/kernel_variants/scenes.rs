@@ -3,7 +3,7 @@
 use crate::common::patterns::{noise, patterns};
 use crate::common::placed::placed;
 use dapple::scene::*;
-use glam::{Affine3A, Mat3, Vec3};
+use glam::{Affine3A, Vec3};
 
 fn constant(x: f32) -> Value<Vec3> {
     Value::Constant(Vec3::splat(x))
@@ -62,7 +62,7 @@ fn quad() -> ShapeKind {
 }
 
 fn surroundings(radiance: Value<Vec3>) -> Option<Environment> {
-    Some(Environment { radiance, scale: 2.0, world_from_environment: Mat3::IDENTITY })
+    Some(Environment { scale: 2.0, ..Environment::new(radiance) })
 }
 
 fn texture(scene: &mut Scene, texels: Texels, color_space: ColorSpace) -> Handle<Texture> {
@@ -88,7 +88,7 @@ fn plain() -> Scene {
     let mut scene = Scene::default();
     let grey = material(&mut scene, diffuse(0.5), None);
     place_triangle(&mut scene, grey, 1);
-    scene.lights.push(Light::Point { position: Vec3::Y, intensity: Vec3::ONE });
+    scene.lights.push(Light::point(Vec3::Y, Vec3::ONE));
     scene.render.sampler = Sampler::Center;
     scene.render.russian_roulette = false;
     scene
@@ -105,8 +105,9 @@ fn shapes() -> Scene {
     }
     let (position, direction) = (Vec3::Y, -Vec3::Y);
     scene.lights.extend([
-        Light::Spot { position, direction, intensity: Vec3::ONE, cone_angle: 30.0, falloff_angle: 5.0 },
-        Light::Distant { direction, irradiance: Vec3::ONE },
+        Light::new(LightKind::Spot { position, cone_angle: 30.0, falloff_angle: 5.0 }, constant(1.0))
+            .along(direction),
+        Light::distant(direction, Vec3::ONE),
     ]);
     let aperture = Aperture::Radius(0.1);
     let mut lens = Lens::new(aperture, 2.0);

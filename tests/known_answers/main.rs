@@ -23,6 +23,7 @@ mod geometry;
 mod glass;
 mod lens;
 mod light;
+mod light_texture;
 mod material;
 mod motion;
 mod offset;

@@ -8,6 +8,7 @@ mod camera;
 mod choice;
 mod flat_light;
 mod cone;
+mod direction;
 mod fresnel;
 mod geometry;
 mod ggx;

@@ -326,12 +326,18 @@ pub(super) const INSTANCE: &[&str] = &["mesh", "material", "transform", "transfo
 /// Steps of a `transform`.
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];
 
+const SPOT: &[&str] =
+    &["position", "target", "direction", "up", "intensity", "scale", "power", "cone_angle", "falloff_angle"];
+const PROJECTION: &[&str] =
+    &["position", "target", "direction", "up", "intensity", "scale", "power", "fov", "fov_axis", "aspect"];
+
 pub(super) const LIGHT: Kinds = Kinds {
     common: &["kind"],
     kinds: &[
-        ("point", &["position", "intensity"]),
-        ("spot", &["position", "target", "direction", "intensity", "cone_angle", "falloff_angle"]),
-        ("distant", &["direction", "from", "irradiance"]),
+        ("point", &["position", "intensity", "scale", "power", "mapping", "rotate", "transform"]),
+        ("spot", SPOT),
+        ("projection", PROJECTION),
+        ("distant", &["direction", "from", "up", "irradiance", "scale"]),
         (
             "sphere",
             &[
@@ -374,7 +380,7 @@ pub(super) const LIGHT: Kinds = Kinds {
     ],
 };
 
-pub(super) const ENVIRONMENT: &[&str] = &["color", "texture", "scale", "rotate", "transform"];
+pub(super) const ENVIRONMENT: &[&str] = &["color", "texture", "mapping", "scale", "rotate", "transform"];
 
 /// Keys of which an object has one at most. A file that includes another, and `--set`, replace one by the other.
 pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
@@ -391,7 +397,16 @@ pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
     ("environment", &[&["color", "texture"], &["rotate", "transform"]]),
     ("material", &[&["roughness", "alpha"], &["fresnel", "eta"], &["fresnel", "k"], &["reflectance", "eta"]]),
     ("shape", &[&["origin", "center"]]),
-    ("light", &[&["target", "direction"], &["direction", "from"], &["origin", "center"]]),
+    (
+        "light",
+        &[
+            &["target", "direction"],
+            &["direction", "from"],
+            &["origin", "center"],
+            &["scale", "power"],
+            &["rotate", "transform"],
+        ],
+    ),
 ];
 
 /// The rivals of a key of a table.

@@ -291,8 +291,17 @@ const HEAD: &str = "// Generated from the textures of the scene.
 
 /// The file, with a function for each use of textures and the shapes that it may meet. A shape that is only ever an input of
 /// others has no case: on Mesa before 24.3 a case that no lane takes costs as much as any.
-pub(super) fn glsl(shapes: &[Shape], uses: &[(&str, Vec<bool>)], users: &[&GlslTexture]) -> String {
-    let mut text = String::from(HEAD);
+pub(super) fn glsl(
+    shapes: &[Shape],
+    uses: &[(&str, Vec<bool>)],
+    users: &[&GlslTexture],
+    octahedral: bool,
+) -> String {
+    let mut text = String::new();
+    if octahedral {
+        text.push_str("#define OCTAHEDRAL_PICTURES\n");
+    }
+    text.push_str(HEAD);
     let any = |is: fn(&Shape) -> bool| shapes.iter().any(is);
     for (file, used) in [
         ("pyramid", any(|shape| matches!(shape, Shape::Image(_, true)))),

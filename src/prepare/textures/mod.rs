@@ -18,10 +18,11 @@ mod user;
 
 use super::atlas::Atlas;
 use super::{Prepared, rows};
-use crate::scene::{Handle, MappingKind, Scene, TexelFilter, Texture, Warp};
+use crate::scene::{Handle, MappingKind, Scene, TexelFilter, Texture, Warp, Wrap};
 use crate::{Error, Result};
 use builder::{Builder, Node};
 use glsl::glsl;
+pub(super) use image::picture_mean;
 use range::Range;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -89,6 +90,11 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
     out.features.timed_textures = scene.textures.iter().any(|(_, _, texture)| sees_time(texture));
     (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
     Ok(references)
+}
+
+/// Whether a texture itself is a picture that is an octahedral map.
+fn is_octahedral(texture: &Texture) -> bool {
+    matches!(texture, Texture::Image(image) if image.wrap.contains(&Wrap::Octahedral))
 }
 
 /// Whether the values of a texture itself may depend on the time.
@@ -180,7 +186,12 @@ fn build(scene: &Scene, uses: &[Use], seen: Vec<Handle<Texture>>) -> Result<(Pre
     let textures = PreparedTextures {
         records: words,
         texels: atlas.into_words(),
-        glsl: glsl(&shapes, &roots, &users),
+        glsl: glsl(
+            &shapes,
+            &roots,
+            &users,
+            scene.textures.iter().any(|(_, _, texture)| is_octahedral(texture)),
+        ),
         references: references.references.clone(),
         footprint: shapes.iter().any(|shape| shape.sees_footprint()),
         vertex_color: scene.textures.iter().any(|(_, _, texture)| sees_vertex_color(texture)),
@@ -218,5 +229,6 @@ fn uses(scene: &Scene) -> [Use; 3] {
     direct.extend(details().filter_map(|detail| Some(detail.normal_map?.texture)));
     direct.extend(materials().flat_map(|material| material.textures()));
     direct.extend(scene.environment.iter().filter_map(|environment| environment.texture()));
+    direct.extend(scene.lights.iter().filter_map(|light| light.intensity.texture()));
     [("texture_evaluate", direct), ("texture_opacity", opacity), ("texture_height", heights)]
 }

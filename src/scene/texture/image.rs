@@ -25,6 +25,8 @@ pub enum Wrap {
     Mirror,
     /// Zero, also in alpha.
     Black,
+    /// What comes next on the sphere of an [equal-area map](crate::scene::DirectionMapping::EqualArea); along u and v alike.
+    Octahedral,
 }
 
 /// How stored numbers become linear light. Alpha is always linear.

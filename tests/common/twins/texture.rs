@@ -29,6 +29,7 @@ pub fn wrapped(i: i64, n: i64, wrap: Wrap) -> Option<usize> {
             let j = i.rem_euclid(2 * n);
             if j < n { j } else { 2 * n - 1 - j }
         }
+        Wrap::Octahedral => panic!("u and v are wrapped together"),
         Wrap::Black => return (0..n).contains(&i).then_some(i as usize),
     };
     Some(inside as usize)

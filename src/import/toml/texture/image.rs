@@ -40,7 +40,9 @@ impl Reader<'_> {
 
 fn wrap(item: Item<'_>) -> Result<[Wrap; 2]> {
     if !item.is_list() {
-        return item.choice(&WRAPS).map(|both| [both; 2]);
+        let [repeat, clamp, mirror, black] = WRAPS;
+        let all = [repeat, clamp, mirror, black, ("octahedral", Wrap::Octahedral)];
+        return item.choice(&all).map(|both| [both; 2]);
     }
     let choices: Vec<_> = item.list("a list")?.map(|one| one.choice(&WRAPS)).collect::<Result<_>>()?;
     <[Wrap; 2]>::try_from(choices).map_err(|_| item.mismatch("one word or two"))
