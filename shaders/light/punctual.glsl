@@ -51,7 +51,7 @@ vec3 punctual_texture(Light light, vec3 from, vec3 wi)
     vec3 local = punctual_local(light, -wi);
     vec2 uv = equirectangular_uv(local);
 #ifdef EQUAL_AREA_LIGHTS
-    if (light.equal_area != 0u) uv = equal_area_uv(local);
+    if (light.extra != 0u) uv = equal_area_uv(local);
 #endif
 #ifdef HAS_LIGHT_PROJECTION
     if (light.kind == LIGHT_PROJECTION) uv = projection_uv(light, local);

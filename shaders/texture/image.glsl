@@ -62,10 +62,8 @@ uint wrap_index(int i, int n, uint mode, inout bool outside)
 // Beyond an edge of an octahedral map comes the row along that edge, turned about its middle.
 ivec2 octahedral_place(ivec2 at, ivec2 size)
 {
-    bvec2 outside = bvec2(at.x < 0 || at.x >= size.x, at.y < 0 || at.y >= size.y);
-    ivec2 folded = ivec2(at.x < 0 ? -1 - at.x : 2 * size.x - 1 - at.x, at.y < 0 ? -1 - at.y : 2 * size.y - 1 - at.y);
-    if (outside.x) at = ivec2(folded.x, size.y - 1 - at.y);
-    if (outside.y) at = ivec2(size.x - 1 - at.x, folded.y);
+    if (at.x < 0 || at.x >= size.x) at = ivec2(at.x < 0 ? -1 - at.x : 2 * size.x - 1 - at.x, size.y - 1 - at.y);
+    if (at.y < 0 || at.y >= size.y) at = ivec2(size.x - 1 - at.x, at.y < 0 ? -1 - at.y : 2 * size.y - 1 - at.y);
     return at;
 }
 #endif

