@@ -353,8 +353,7 @@ records! {
         uv2: [f32; 2],
         /// material of a surface
         material: u32,
-        /// of a triangle that of its Face, or NONE; with LIGHT_TURNED two corners changed places. Of a point light 1 when its texture is
-        /// an equal-area map of its directions, in place of longitude and latitude
+        /// triangle: that of its Face, or NONE; LIGHT_TURNED: two corners changed places. point light: 1 for an equal-area map
         extra: u32,
     }
 
