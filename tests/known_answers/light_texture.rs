@@ -37,6 +37,8 @@ pub(super) fn octahedral(d: DVec3) -> DVec2 {
     0.5 + 0.5 * p * DVec2::new(d.x.signum(), d.z.signum())
 }
 
+type DirectionToUv = fn(DVec3) -> DVec2;
+
 fn textured(s: &mut Scene, kind: LightKind, image: Image) -> Light {
     let texture = s.picture(image, |t| t.filter = TexelFilter::Nearest);
     Light::new(kind, Value::Texture(texture))
@@ -49,7 +51,7 @@ fn turns() -> [Mat3; 3] {
 
 #[test]
 fn a_point_light_shines_as_its_picture_says_in_each_direction() {
-    let mappings: [(_, fn(DVec3) -> DVec2); 2] =
+    let mappings: [(_, DirectionToUv); 2] =
         [(DirectionMapping::Equirectangular, longitude_latitude), (DirectionMapping::EqualArea, octahedral)];
     for (mapping, uv) in mappings {
         for turn in turns() {
