@@ -99,6 +99,7 @@ const uint LIGHT_QUAD = 4u; // Light kind: rectangle or parallelogram.
 const uint LIGHT_DISK = 5u; // Light kind: disk; edges are its radii.
 const uint LIGHT_TRIANGLE = 6u; // Light kind: triangle of a mesh.
 const uint LIGHT_TURNED = 2147483648u; // Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
+const uint LIGHT_PROJECTION = 7u; // Light kind: picture thrown from a point.
 const uint TEXELS_RGBA8 = 0u; // Texel format: a word holds 2×2 texels of 8 bits a channel.
 const uint TEXELS_RGBA8_SRGB = 1u; // Texel format: the same; colour is decoded before it is filtered.
 const uint TEXELS_RGBA16F = 2u; // Texel format: a word holds 2×1 texels of halves.
@@ -449,7 +450,7 @@ struct Light {
     vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
     vec2 uv2; // uv of the third vertex less the first
     uint material; // material of a surface
-    uint extra; // that of the Face of a triangle, or NONE; with LIGHT_TURNED two corners changed places
+    uint extra; // triangle: that of its Face, or NONE; LIGHT_TURNED: two corners changed places. point light: 1 for an equal-area map
 };
 const uint LIGHT_WORDS = 7u;
 Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)

@@ -106,7 +106,7 @@ fn film_and_render_take_every_key() {
         width: 320,
         height: 200,
         crop: Some(Rect { x0: 10, y0: 20, x1: 300, y1: 200 }),
-        filter: Filter { kind: FilterKind::Gaussian, radius: 2.0 },
+        filter: Filter { kind: FilterKind::Mitchell { b: 0.5, c: 0.25 }, radius: 2.0 },
         exposure: Exposure { meter: Meter::Shot(shot), stops: -1.5 },
         tone_curve: ToneCurve::Agx,
         png_bits: 16,
