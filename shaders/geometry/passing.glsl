@@ -2,12 +2,12 @@
 // goes through is coloured).
 #include "geometry/surface.glsl"
 #include "geometry/walk.glsl"
-#include "geometry/quadric.glsl"
+#include "geometry/shape.glsl"
 #include "base/random.glsl"
 #include "detail/opacity.glsl"
 
 // Whether a ray is stopped by a surface that is there to the part `opacity`. The draw is a hash of what is met, as the order
-// in which a ray meets things depends on the trees; a sphere is met twice.
+// in which a ray meets things depends on the trees; a shape may be met twice, once on each side.
 bool opacity_stops(uint key, Surface s, float opacity, vec3 direction)
 {
     uint side = dot(direction, s.geometric) > 0.0 ? 1u : 0u;
@@ -36,15 +36,15 @@ bool passing_ends(inout Passing passing, Surface s, vec3 direction)
 #endif
 }
 
-// Where a ray meets a sphere again that has let it through; other things are met once.
+// Where a ray meets a shape again that has let it through; triangles are met once.
 Hit beyond(Hit passed, float t_max, vec3 origin, vec3 direction)
 {
-#ifdef HAS_SPHERES
+#ifdef HAS_ROUND_SHAPES
     if (passed.triangle == NONE) {
-        Instance sphere = instance_fetch(passed.instance);
+        Instance shape = instance_fetch(passed.instance);
         float t;
-        bool again = sphere_hit(object_point(sphere, origin), object_vector(sphere, direction), passed.t, t_max, t);
-        if (again && sphere.kind == INSTANCE_SPHERE) return Hit(t, NONE, passed.instance);
+        bool again = shape_hit(shape, object_point(shape, origin), object_vector(shape, direction), passed.t, t_max, t);
+        if (again) return Hit(t, NONE, passed.instance);
     }
 #endif
     return NO_HIT;

@@ -1,6 +1,10 @@
 // From a hit to the point on the surface that shading needs.
 #include "geometry/surface_triangle.glsl"
+#include "geometry/shape.glsl"
 #include "geometry/surface_quadric.glsl"
+#ifdef HAS_PATCHES
+#include "geometry/surface_patch.glsl"
+#endif
 #include "texture/context.glsl"
 
 // The surface that a ray met: triangle and instance as in Hit.
@@ -14,7 +18,11 @@ Surface surface_at(float t, uint triangle, uint instance, vec3 origin, vec3 dire
     }
     Instance place = instance_fetch(owner);
     Surface s;
-#if defined(HAS_SPHERES) || defined(HAS_DISKS)
+#ifdef HAS_PATCHES
+    if (triangle == NONE && place.kind == INSTANCE_PATCH) s = patch_surface(place, t, origin, direction);
+    else
+#endif
+#if defined(HAS_SPHERES) || defined(HAS_DISKS) || defined(HAS_PARTS)
     if (triangle == NONE) s = quadric_surface(place, t, origin, direction);
     else
 #endif

@@ -1,11 +1,12 @@
 // Rays through the two levels of trees. Switches of the variant: HAS_INSTANCES (there is a tree over instances; else
-// the root is that of the triangles in world space), HAS_SPHERES, HAS_DISKS, HAS_OPACITY (some surfaces let rays through), ANY_HIT (stop at the first hit), PARKING.
+// the root is that of the triangles in world space), HAS_OPACITY (some surfaces let rays through), ANY_HIT (stop at the first
+// hit), PARKING, and those of the menu of shapes.
 //
 // A ray takes at most `frame.step_limit` steps at once: Mesa before 25.0 leaves loops after 65,535 rounds. A step takes up
 // to ROUNDS_A_STEP of them.
 #include "shared/bindings.glsl"
 #include "geometry/instance.glsl"
-#include "geometry/quadric.glsl"
+#include "geometry/shape.glsl"
 #include "geometry/triangle.glsl"
 #include "geometry/walk.glsl"
 
@@ -103,11 +104,8 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Passi
             vec3 o = move ? object_point(entered, origin) : origin;
             vec3 d = move ? object_vector(entered, direction) : direction;
             float t = 0.0;
-#ifdef HAS_SPHERES
-            if (entered.kind == INSTANCE_SPHERE) found = sphere_hit(o, d, passing.t_min, walk.hit.t, t);
-#endif
-#ifdef HAS_DISKS
-            if (entered.kind == INSTANCE_DISK) found = disk_hit(o, d, passing.t_min, walk.hit.t, t);
+#ifdef HAS_SHAPES
+            found = shape_hit(entered, o, d, passing.t_min, walk.hit.t, t);
 #endif
 #ifdef HAS_OPACITY
             if (found) candidate = Hit(t, NONE, index);

@@ -5,6 +5,8 @@
 #include "light/quad.glsl"
 #include "light/disk.glsl"
 #include "light/triangle.glsl"
+#include "light/part.glsl"
+#include "light/patch.glsl"
 #include "light/environment.glsl"
 
 LightSample light_sample_one(Light light, vec3 from, vec2 u01)
@@ -33,6 +35,14 @@ LightSample light_sample_one(Light light, vec3 from, vec2 u01)
 #endif
 #ifdef HAS_LIGHT_TRIANGLE
     case LIGHT_TRIANGLE: return triangle_sample_light(light, from, u01);
+#endif
+#ifdef HAS_LIGHT_PART
+    case LIGHT_SPHERE_PART:
+    case LIGHT_DISK_PART:
+    case LIGHT_CYLINDER: return part_sample_light(light, from, u01);
+#endif
+#ifdef HAS_LIGHT_PATCH
+    case LIGHT_PATCH: return patch_sample_light(light, from, u01);
 #endif
     default: return LIGHT_NOTHING;
     }
@@ -79,6 +89,14 @@ float light_pdf_one(Light light, vec3 from, vec3 point, vec3 normal)
 #endif
 #ifdef HAS_LIGHT_TRIANGLE
     case LIGHT_TRIANGLE: return triangle_light_pdf(light, from, point, normal);
+#endif
+#ifdef HAS_LIGHT_PART
+    case LIGHT_SPHERE_PART:
+    case LIGHT_DISK_PART:
+    case LIGHT_CYLINDER: return part_light_pdf(light, from, point, normal);
+#endif
+#ifdef HAS_LIGHT_PATCH
+    case LIGHT_PATCH: return patch_light_pdf(light, from, point, normal);
 #endif
     default: return area_to_solid_angle(light.b, from, point, normal);
     }

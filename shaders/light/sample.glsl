@@ -49,7 +49,7 @@ LightSample light_surface_point(Light light, vec3 from, float pdf, TextureContex
     radiance *= opacity_at(detail_fetch(light.material), context);
 #endif
     vec3 reach = abs(light.position) + abs(light.edge_u) + abs(light.edge_v);
-    if (light.kind == LIGHT_SPHERE) reach += abs(vec3(light.uv0, light.uv1.x));
+    if (light.kind == LIGHT_SPHERE || (light.kind >= LIGHT_SPHERE_PART && light.kind <= LIGHT_PATCH)) reach += abs(vec3(light.uv0, light.uv1.x));
     return LightSample(wi, point, facing < 0.0 ? -normal : normal, max_component(reach), radiance, pdf, false, false);
 }
 

@@ -48,6 +48,10 @@ const uint INSTANCE_MESH = 0u; // Instance kind: triangles in object space.
 const uint INSTANCE_SOUP = 1u; // Instance kind: all triangles that are placed once, in world space.
 const uint INSTANCE_SPHERE = 2u; // Instance kind: unit sphere.
 const uint INSTANCE_DISK = 3u; // Instance kind: unit disk.
+const uint INSTANCE_SPHERE_PART = 4u; // Instance kind: part of the unit sphere; its root is the first word of its QuadricPart.
+const uint INSTANCE_DISK_PART = 5u; // Instance kind: part of the unit disk.
+const uint INSTANCE_CYLINDER = 6u; // Instance kind: tube of radius 1 about z from 0 to 1, or a part of it.
+const uint INSTANCE_PATCH = 7u; // Instance kind: bilinear patch; its root is the first word of its BilinearPatch.
 const uint INSTANCE_DEFAULT_UV = 1u; // Instance flag: the mesh has no uv, so that it is (0,0), (1,0), (1,1) on every triangle.
 const uint INSTANCE_TRIANGLE_LIGHTS = 2u; // Instance flag: each triangle is a light of its own; else they are one light together.
 const uint MATERIAL_UNLIT = 0u; // Material kind: colour is radiance.
@@ -295,7 +299,7 @@ Vertex vertex_unpack(uvec4 w0, uvec4 w1)
 
 struct Instance {
     uint kind; // INSTANCE_… kind
-    uint root; // root of its tree, for meshes
+    uint root; // root of its tree, for meshes; first word of `instances` with what else there is to know of a shape; or NONE
     uint light; // first light of its surface, or NONE
     uint material; // material of what has none of its own
     vec4 object_row0; // row 0 of object from world
@@ -836,5 +840,86 @@ Motion motion_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5,
     r.close_row0 = uintBitsToFloat(uvec4(w7.x, w7.y, w7.z, w7.w));
     r.close_row1 = uintBitsToFloat(uvec4(w8.x, w8.y, w8.z, w8.w));
     r.close_row2 = uintBitsToFloat(uvec4(w9.x, w9.y, w9.z, w9.w));
+    return r;
+}
+
+struct QuadricPart {
+    float z_min; // least z; beyond the sphere when it is not cut there
+    float z_max; // greatest z
+    float inner_radius; // radius of the hole of a disk
+    float turn; // angle about z from +x up to which it is there, turns
+    float v_min; // v of the whole shape where v is 0
+    float v_range; // v of the whole shape where v is 1, less that
+    vec2 spare; // room
+};
+const uint QUADRIC_PART_WORDS = 2u;
+QuadricPart quadric_part_unpack(uvec4 w0, uvec4 w1)
+{
+    QuadricPart r;
+    r.z_min = uintBitsToFloat(w0.x);
+    r.z_max = uintBitsToFloat(w0.y);
+    r.inner_radius = uintBitsToFloat(w0.z);
+    r.turn = uintBitsToFloat(w0.w);
+    r.v_min = uintBitsToFloat(w1.x);
+    r.v_range = uintBitsToFloat(w1.y);
+    r.spare = uintBitsToFloat(uvec2(w1.z, w1.w));
+    return r;
+}
+
+struct BilinearPatch {
+    vec3 p00; // corner u = 0, v = 0, divided by `size`
+    float size; // largest coordinate of a corner, up to a factor of 2: a power of two
+    vec3 p10; // corner u = 1, v = 0, divided by `size`
+    uint has_normals; // 1 when it has normals
+    vec3 p01; // corner u = 0, v = 1, divided by `size`
+    float spare01; // room
+    vec3 p11; // corner u = 1, v = 1, divided by `size`
+    float spare11; // room
+    vec2 uv00; // texture coordinates of p00
+    vec2 uv10; // texture coordinates of p10
+    vec2 uv01; // texture coordinates of p01
+    vec2 uv11; // texture coordinates of p11
+};
+const uint BILINEAR_PATCH_WORDS = 6u;
+BilinearPatch bilinear_patch_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5)
+{
+    BilinearPatch r;
+    r.p00 = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.size = uintBitsToFloat(w0.w);
+    r.p10 = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.has_normals = w1.w;
+    r.p01 = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
+    r.spare01 = uintBitsToFloat(w2.w);
+    r.p11 = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
+    r.spare11 = uintBitsToFloat(w3.w);
+    r.uv00 = uintBitsToFloat(uvec2(w4.x, w4.y));
+    r.uv10 = uintBitsToFloat(uvec2(w4.z, w4.w));
+    r.uv01 = uintBitsToFloat(uvec2(w5.x, w5.y));
+    r.uv11 = uintBitsToFloat(uvec2(w5.z, w5.w));
+    return r;
+}
+
+struct PatchNormals {
+    vec3 n00; // of p00
+    float spare00; // room
+    vec3 n10; // of p10
+    float spare10; // room
+    vec3 n01; // of p01
+    float spare01; // room
+    vec3 n11; // of p11
+    float spare11; // room
+};
+const uint PATCH_NORMALS_WORDS = 4u;
+PatchNormals patch_normals_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3)
+{
+    PatchNormals r;
+    r.n00 = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
+    r.spare00 = uintBitsToFloat(w0.w);
+    r.n10 = uintBitsToFloat(uvec3(w1.x, w1.y, w1.z));
+    r.spare10 = uintBitsToFloat(w1.w);
+    r.n01 = uintBitsToFloat(uvec3(w2.x, w2.y, w2.z));
+    r.spare01 = uintBitsToFloat(w2.w);
+    r.n11 = uintBitsToFloat(uvec3(w3.x, w3.y, w3.z));
+    r.spare11 = uintBitsToFloat(w3.w);
     return r;
 }

@@ -107,6 +107,14 @@ constants! {
     INSTANCE_SPHERE = 2;
     /// Instance kind: unit disk.
     INSTANCE_DISK = 3;
+    /// Instance kind: part of the unit sphere; its root is the first word of its QuadricPart.
+    INSTANCE_SPHERE_PART = 4;
+    /// Instance kind: part of the unit disk.
+    INSTANCE_DISK_PART = 5;
+    /// Instance kind: tube of radius 1 about z from 0 to 1, or a part of it.
+    INSTANCE_CYLINDER = 6;
+    /// Instance kind: bilinear patch; its root is the first word of its BilinearPatch.
+    INSTANCE_PATCH = 7;
     /// Instance flag: the mesh has no uv, so that it is (0,0), (1,0), (1,1) on every triangle.
     INSTANCE_DEFAULT_UV = 1;
     /// Instance flag: each triangle is a light of its own; else they are one light together.
@@ -211,6 +219,14 @@ constants! {
     LIGHT_TURNED = 1 << 31;
     /// Light kind: picture thrown from a point.
     LIGHT_PROJECTION = 7;
+    /// Light kind: part of a sphere.
+    LIGHT_SPHERE_PART = 8;
+    /// Light kind: part of a disk.
+    LIGHT_DISK_PART = 9;
+    /// Light kind: tube, or a part of it.
+    LIGHT_CYLINDER = 10;
+    /// Light kind: bilinear patch.
+    LIGHT_PATCH = 11;
     /// Texel format: a word holds 2×2 texels of 8 bits a channel.
     TEXELS_RGBA8 = 0;
     /// Texel format: the same; colour is decoded before it is filtered.

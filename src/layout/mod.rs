@@ -14,6 +14,7 @@ mod lens;
 mod motion;
 mod patterns;
 mod records;
+mod shapes;
 mod textures;
 
 pub use bindings::{BINDINGS, Backend, Binding, BindingKind, bindings_glsl};
@@ -23,6 +24,7 @@ pub use lens::{FilterCell, LensInterface, OpeningCell, PupilBounds};
 pub use motion::Motion;
 pub use patterns::*;
 pub use records::*;
+pub use shapes::{BilinearPatch, PatchNormals, QuadricPart};
 pub use textures::*;
 
 /// Bytes of the word that kernels read.
@@ -86,7 +88,7 @@ impl RecordInfo {
 
 /// Every record, in the order of `layout.glsl`.
 pub fn records() -> impl Iterator<Item = &'static RecordInfo> {
-    [records::ALL, textures::ALL, patterns::ALL, lens::ALL, motion::ALL].into_iter().flatten()
+    [records::ALL, textures::ALL, patterns::ALL, lens::ALL, motion::ALL, shapes::ALL].into_iter().flatten()
 }
 
 #[cfg(test)]

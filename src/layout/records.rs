@@ -213,7 +213,7 @@ records! {
     struct Instance {
         /// INSTANCE_… kind
         kind: u32,
-        /// root of its tree, for meshes
+        /// root of its tree, for meshes; first word of `instances` with what else there is to know of a shape; or NONE
         root: u32,
         /// first light of its surface, or NONE
         light: u32,
@@ -345,15 +345,15 @@ records! {
         radiance: [f32; 3],
         /// its texture, or NONE
         texture: u32,
-        /// uv of the first vertex of a triangle; x and y of the third axis of a sphere
+        /// uv of the first vertex of a triangle; x and y of the third axis of a quadric, or of the twist of a patch
         uv0: [f32; 2],
-        /// uv of the second vertex less the first; z of the third axis of a sphere
+        /// uv of the second vertex less the first; z of that axis or twist, and the turn of a part
         uv1: [f32; 2],
-        /// uv of the third vertex less the first
+        /// uv of the third vertex less the first; least and greatest z of a part of a sphere; radius of the hole of a disk
         uv2: [f32; 2],
         /// material of a surface
         material: u32,
-        /// triangle: that of its Face, or NONE; LIGHT_TURNED: two corners changed places. point light: 1 for an equal-area map
+        /// triangle: that of its Face, or NONE; LIGHT_TURNED: two corners changed places. point light: 1 for an equal-area map; patch: first word of `instances` with its BilinearPatch
         extra: u32,
     }
 

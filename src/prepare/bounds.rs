@@ -31,6 +31,11 @@ impl Bounds {
         self.max = self.max.max(other.max);
     }
 
+    /// What both boxes hold.
+    pub fn common(&self, other: &Self) -> Self {
+        Self { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+
     /// Its eight corners.
     pub fn corners(&self) -> impl Iterator<Item = Vec3> + use<> {
         let (min, max) = (self.min, self.max);
@@ -95,8 +100,15 @@ pub(super) fn disk_bounds(map: &Affine3A) -> Bounds {
     widened(Bounds { min: center - half, max: center + half })
 }
 
+/// The tube of radius 1 about z from 0 to 1: disks at both ends.
+pub(super) fn tube_bounds(map: &Affine3A) -> Bounds {
+    let mut bounds = disk_bounds(map);
+    bounds.join(&disk_bounds(&(*map * Affine3A::from_translation(Vec3::Z))));
+    bounds
+}
+
 /// A little more, for the rounding of the map.
-fn widened(bounds: Bounds) -> Bounds {
+pub(super) fn widened(bounds: Bounds) -> Bounds {
     let margin = (bounds.min.abs().max(bounds.max.abs())) * 4.0 * f32::EPSILON;
     Bounds { min: bounds.min - margin, max: bounds.max + margin }
 }

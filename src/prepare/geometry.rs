@@ -3,27 +3,24 @@
 //! What is placed once goes into one tree in world space (the soup); a mesh that is placed several times, or moves, gets a
 //! tree of its own. A tree over instances stands above them, unless the soup is all there is.
 
-use super::bounds::{Bounds, bounds_of, disk_bounds, ellipsoid_bounds, transformed, triangle_bounds};
+use super::bounds::{Bounds, bounds_of, transformed, triangle_bounds};
 use super::bvh::{self, Quality};
 use super::motion::{Motion, bounds_over_time};
 use super::places::{check_sizes, shape_frame};
+use super::shapes;
 use super::triangles::{Extras, mirrors, push_triangles};
 use super::wide::Leaves;
 use super::{Prepared, corners, rows};
 use crate::layout::{
-    self, INSTANCE_DEFAULT_UV, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE,
+    self, INSTANCE_DEFAULT_UV, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_PATCH, INSTANCE_SOUP, INSTANCE_SPHERE,
     INSTANCE_TRIANGLE_LIGHTS, Instance, LEAF, LEAF_FIRST_MASK, LEAF_INSTANCE, NONE, Record, Triangle,
 };
 use crate::scene::{Handle, Mesh, Scene, ShapeKind};
 use crate::{Error, Result};
-use glam::{Affine3A, Vec3};
+use glam::Affine3A;
 
 /// Most triangles a leaf holds.
 const TRIANGLES_A_LEAF: u32 = 4;
-
-/// Boxes around the unit sphere and the unit disk.
-const SPHERE: Bounds = Bounds { min: Vec3::NEG_ONE, max: Vec3::ONE };
-const DISK: Bounds = Bounds { min: Vec3::new(-1.0, -1.0, 0.0), max: Vec3::new(1.0, 1.0, 0.0) };
 
 /// Where a thing that may shine went: for the table of lights.
 pub(super) struct Placed {
@@ -96,6 +93,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
     build_top(soup, tops, deepest, out)?;
     push_motions(scene, motions, out)?;
     corners::put_behind_faces(out);
+    shapes::place_words(out);
     Ok(placed)
 }
 
@@ -104,34 +102,29 @@ impl Placing<'_> {
         let shape = &self.scene.shapes[i];
         let (frame, map) = (shape.kind.frame(), shape_frame(shape));
         let motion = Motion::between(&shape.name, &shape.world_from_object, shape.at_close.as_ref())?;
-        let kind = match shape.kind {
-            ShapeKind::Sphere { .. } => INSTANCE_SPHERE,
-            ShapeKind::Disk { .. } => INSTANCE_DISK,
-            ShapeKind::Quad { .. } if motion.is_some() => INSTANCE_MESH,
-            ShapeKind::Quad { .. } => INSTANCE_SOUP,
-        };
+        let kind = shapes::instance_kind(&shape.kind, motion.is_some());
         let instance = out.push_instance(kind, map, shape.material.index() as u32);
         if kind != INSTANCE_SOUP {
-            let close = shape.at_close.map(|close| close * frame);
-            check_sizes(&shape.name, &map, close.as_ref())?;
+            let sized = |place: &Affine3A| *place * frame * Affine3A::from_scale(shapes::size(&shape.kind));
+            let close = shape.at_close.as_ref().map(sized);
+            check_sizes(&shape.name, &sized(&shape.world_from_object), close.as_ref())?;
         }
-        let bounds = match shape.kind {
-            ShapeKind::Sphere { .. } => {
-                bounds_over_time(motion.as_ref(), &frame, &map, &SPHERE, ellipsoid_bounds)
+        let bounds = if let ShapeKind::Quad { .. } = shape.kind {
+            let mesh = Mesh::square();
+            let extras = Extras::of(self.scene, &mesh, [shape.material]);
+            if motion.is_some() {
+                let tree = tree_of(&mesh, &extras, out)?;
+                self.stand(instance, &tree, out);
+                let place = |map: &Affine3A| transformed(&tree.bounds, map);
+                bounds_over_time(motion.as_ref(), &frame, &map, &tree.bounds, place)
+            } else {
+                self.bake(instance, &mesh, &map, &extras, out)
             }
-            ShapeKind::Disk { .. } => bounds_over_time(motion.as_ref(), &frame, &map, &DISK, disk_bounds),
-            ShapeKind::Quad { .. } => {
-                let mesh = Mesh::square();
-                let extras = Extras::of(self.scene, &mesh, [shape.material]);
-                if motion.is_some() {
-                    let tree = tree_of(&mesh, &extras, out)?;
-                    self.stand(instance, &tree, out);
-                    let place = |map: &Affine3A| transformed(&tree.bounds, map);
-                    bounds_over_time(motion.as_ref(), &frame, &map, &tree.bounds, place)
-                } else {
-                    self.bake(instance, &mesh, &map, &extras, out)
-                }
-            }
+        } else {
+            out.instances[instance as usize].root = shapes::push_words(&shape.kind, &mut out.shapes);
+            let object = shapes::object_bounds(&shape.kind);
+            let place = |map: &Affine3A| shapes::bounds(&shape.kind, &object, map);
+            bounds_over_time(motion.as_ref(), &frame, &map, &object, place)
         };
         self.place(
             Placed {
@@ -281,6 +274,8 @@ fn build_top(
     }
     let uses = |kind| out.instances.iter().any(|instance| instance.kind == kind);
     (out.features.spheres, out.features.disks) = (uses(INSTANCE_SPHERE), uses(INSTANCE_DISK));
+    out.features.parts = shapes::PARTS.into_iter().any(uses);
+    out.features.patches = uses(INSTANCE_PATCH);
     out.features.instances = !tops.is_empty();
     let Some(root) = soup_root.filter(|_| tops.is_empty()) else {
         return build_instance_tree(tops, soup_root, soup_bounds, deepest, out);

@@ -1,13 +1,15 @@
 //! The table of lights, chosen by power.
 
 use super::geometry::{Placed, Source};
+use super::shape_lights::{set_part, set_patch, set_third};
 use super::textures::References;
 use super::triangles::{mirrors, part_materials};
 use super::{Bounds, Prepared, alias, punctual};
 use crate::layout::{
-    INSTANCE_MESH, LIGHT_DISK, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_TRIANGLE, LIGHT_TURNED, Light, NONE,
+    INSTANCE_MESH, LIGHT_CYLINDER, LIGHT_DISK, LIGHT_DISK_PART, LIGHT_PATCH, LIGHT_QUAD, LIGHT_SPHERE,
+    LIGHT_SPHERE_PART, LIGHT_TRIANGLE, LIGHT_TURNED, Light, NONE,
 };
-use crate::scene::{self, Emission, Handle, Mesh, Scene, ShapeKind, Value};
+use crate::scene::{self, Emission, Handle, Mesh, Scene, Shape, ShapeKind, Value};
 use glam::{Affine3A, Vec2, Vec3};
 use std::f64::consts::PI;
 
@@ -46,7 +48,9 @@ pub(super) fn receivers(scene: &Scene, placed: &[Placed]) -> Bounds {
 fn brought(entry: &Entry, receivers: &Bounds) -> f64 {
     let light = &entry.light;
     let axis = match light.kind {
-        LIGHT_SPHERE => Vec3::new(light.uv0[0], light.uv0[1], light.uv1[0]),
+        LIGHT_SPHERE | LIGHT_SPHERE_PART | LIGHT_DISK_PART | LIGHT_CYLINDER | LIGHT_PATCH => {
+            Vec3::new(light.uv0[0], light.uv0[1], light.uv1[0])
+        }
         LIGHT_QUAD | LIGHT_DISK | LIGHT_TRIANGLE => Vec3::ZERO,
         _ => return 0.0,
     };
@@ -80,7 +84,10 @@ pub(super) fn prepare(
         let first = entries.len();
         let entries = if place.moves { &mut found } else { &mut entries };
         match place.source {
-            Source::Shape(i) => push_shape(scene, i, &place.world_from_object, textures, entries),
+            Source::Shape(i) => {
+                let words = out.instances[place.instance as usize].root;
+                entries.extend(shape(scene, &scene.shapes[i], words, &place.world_from_object, textures));
+            }
             Source::Mesh(i) => push_mesh(scene, i, &place, textures, out, entries),
         }
         if !place.moves && entries.len() > first {
@@ -149,34 +156,37 @@ fn surface_light(
     (light, sides * PI * brightness)
 }
 
-fn push_shape(scene: &Scene, index: usize, map: &Affine3A, textures: &References, entries: &mut Vec<Entry>) {
-    let shape = &scene.shapes[index];
-    let Some(emission) = &scene.materials[shape.material].emission else { return };
-    let kind = match shape.kind {
-        ShapeKind::Sphere { .. } => LIGHT_SPHERE,
-        ShapeKind::Disk { .. } => LIGHT_DISK,
-        ShapeKind::Quad { .. } => LIGHT_QUAD,
-    };
-    let (mut light, exitance) = surface_light(scene, emission, shape.material, textures, kind);
+fn shape(scene: &Scene, shape: &Shape, words: u32, map: &Affine3A, textures: &References) -> Option<Entry> {
+    let emission = scene.materials[shape.material].emission.as_ref()?;
+    let (mut light, exitance) = surface_light(scene, emission, shape.material, textures, LIGHT_QUAD);
+    // Front of a mirrored shape: its normal is that of the object, not of the cross product in the world.
+    light.a = if mirrors(map) { -1.0 } else { 1.0 };
     light.position = Vec3::from(map.translation).to_array();
     let m = &map.matrix3;
     let (x, y, z) = (Vec3::from(m.x_axis), Vec3::from(m.y_axis), Vec3::from(m.z_axis));
     (light.edge_u, light.edge_v) = (x.to_array(), y.to_array());
-    // Front of a mirrored shape: its normal is that of the object, not of the cross product in the world.
-    light.a = if mirrors(map) { -1.0 } else { 1.0 };
-    if let ShapeKind::Sphere { .. } = shape.kind {
-        light.a = if is_sphere(x, y, z) { x.length() } else { 0.0 };
-        (light.uv0, light.uv1) = ([z.x, z.y], [z.z, 0.0]);
-    }
-    let (x, y, z) = (x.as_dvec3(), y.as_dvec3(), z.as_dvec3());
-    let area = match shape.kind {
-        // Of a sphere of the same volume: for an ellipsoid a good guess, and only its power depends on it.
-        ShapeKind::Sphere { .. } => 4.0 * PI * x.cross(y).dot(z).abs().powf(2.0 / 3.0),
-        ShapeKind::Disk { .. } => PI * x.cross(y).length(),
-        ShapeKind::Quad { .. } => x.cross(y).length(),
+    let (u, v, w) = (x.as_dvec3(), y.as_dvec3(), z.as_dvec3());
+    let area = match &shape.kind {
+        ShapeKind::Sphere { .. } => {
+            light.kind = LIGHT_SPHERE;
+            light.a = if is_sphere(x, y, z) { x.length() } else { 0.0 };
+            set_third(&mut light, z);
+            // Of a sphere of the same volume: for an ellipsoid a good guess, and only its power depends on it.
+            4.0 * PI * u.cross(v).dot(w).abs().powf(2.0 / 3.0)
+        }
+        ShapeKind::Disk { .. } => {
+            light.kind = LIGHT_DISK;
+            PI * u.cross(v).length()
+        }
+        ShapeKind::Quad { .. } => u.cross(v).length(),
+        ShapeKind::Quadric(quadric) => set_part(&mut light, quadric, map),
+        ShapeKind::Patch(patch) => {
+            light.extra = words;
+            set_patch(&mut light, patch, map)
+        }
     };
     light.b = area as f32;
-    entries.push(Entry { light, power: Some(exitance * area) });
+    Some(Entry { light, power: Some(exitance * area) })
 }
 
 /// Whether the axes of a mapped sphere are as long as one another, and at right angles, but for rounding.

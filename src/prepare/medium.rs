@@ -1,9 +1,10 @@
 //! What the camera is inside of: paths begin in that glass.
 
+use super::meet::{Meeting, meet};
 use super::places::shape_frame;
 use super::triangles::part_materials;
 use crate::layout::NONE;
-use crate::scene::{Handle, Instance, Material, Scene, Shape, ShapeKind, Surface};
+use crate::scene::{Handle, Instance, Material, Scene, Shape, Surface};
 use glam::{Affine3A, DVec3, Vec3};
 use std::collections::HashMap;
 
@@ -66,25 +67,8 @@ fn line(scene: &Scene, world_from_object: &Affine3A) -> (DVec3, DVec3) {
 fn meet_shape(scene: &Scene, shape: &Shape, crossings: &mut Vec<Crossing>) {
     let material = shape.material.index() as u32;
     let (o, d) = line(scene, &shape_frame(shape));
-    if let ShapeKind::Sphere { .. } = shape.kind {
-        let (a, b, c) = (d.dot(d), d.dot(o), o.dot(o) - 1.0);
-        let root = (b * b - a * c).sqrt();
-        // NaN when the line misses
-        if root > 0.0 {
-            crossings.push(Crossing { material, t: (-b - root) / a, leaves: false });
-            crossings.push(Crossing { material, t: (-b + root) / a, leaves: true });
-        }
-        return;
-    }
-    let t = -o.z / d.z;
-    let p = (o + t * d).truncate();
-    let inside = match shape.kind {
-        ShapeKind::Quad { .. } => p.min_element() >= 0.0 && p.max_element() <= 1.0,
-        _ => p.length_squared() <= 1.0,
-    };
-    if inside {
-        crossings.push(Crossing { material, t, leaves: d.z > 0.0 });
-    }
+    let met = meet(&shape.kind, o, d).into_iter();
+    crossings.extend(met.map(|Meeting { t, leaves }| Crossing { material, t, leaves }));
 }
 
 fn meet_mesh(scene: &Scene, instance: &Instance, crossings: &mut Vec<Crossing>) {

@@ -15,11 +15,14 @@ pub mod lens;
 mod lights;
 mod materials;
 mod medium;
+mod meet;
 mod motion;
 mod pixel_filter;
 mod places;
 mod punctual;
 mod pyramid;
+mod shape_lights;
+mod shapes;
 mod tangents;
 mod textures;
 mod triangles;
@@ -57,6 +60,8 @@ pub struct Prepared {
     pub instances: Vec<Instance>,
     /// How those of them move that do, and the camera.
     pub motions: Vec<Motion>,
+    /// Words behind them, of what else there is to know of parts of quadrics and of patches.
+    pub shapes: Vec<[u32; 4]>,
     /// Word behind the instances with the motion of the camera, or NONE.
     pub camera_motion: u32,
     /// Materials, indexed as in the scene.
@@ -111,6 +116,7 @@ impl Prepared {
             size_of_val(self.vertices.as_slice()),
             size_of_val(self.instances.as_slice()),
             size_of_val(self.motions.as_slice()),
+            size_of_val(self.shapes.as_slice()),
             size_of_val(self.materials.as_slice()),
             size_of_val(self.details.as_slice()),
             size_of_val(self.textures.as_slice()),
@@ -142,6 +148,10 @@ pub struct Features {
     pub spheres: bool,
     /// Disks.
     pub disks: bool,
+    /// Tubes, and parts of spheres and disks.
+    pub parts: bool,
+    /// Bilinear patches.
+    pub patches: bool,
     /// Bit set of the `MATERIAL_…` kinds.
     pub material_kinds: u32,
     /// Bit set of the `LIGHT_…` kinds.

@@ -2,9 +2,10 @@
 
 use super::{Features, Prepared};
 use crate::layout::{
-    Backend, INPUT_EMISSION, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_PROJECTION, LIGHT_QUAD,
-    LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE,
-    MATERIAL_PHONG, MATERIAL_PRINCIPLED, STACK_ENTRIES,
+    Backend, INPUT_EMISSION, LIGHT_CYLINDER, LIGHT_DISK, LIGHT_DISK_PART, LIGHT_DISTANT, LIGHT_PATCH,
+    LIGHT_POINT, LIGHT_PROJECTION, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPHERE_PART, LIGHT_SPOT, LIGHT_TRIANGLE,
+    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, MATERIAL_PRINCIPLED,
+    STACK_ENTRIES,
 };
 use crate::scene::{FilterKind, FisheyeMapping, Focus, Opening, Projection, Sampler, Scene};
 use std::collections::BTreeMap;
@@ -209,6 +210,8 @@ pub fn defines(
         flag("HAS_INSTANCES", features.instances);
         flag("HAS_SPHERES", features.spheres);
         flag("HAS_DISKS", features.disks);
+        flag("HAS_PARTS", features.parts);
+        flag("HAS_PATCHES", features.patches);
         flag("HAS_OPACITY", features.opacity);
         flag("HAS_FILTER", features.filter);
     }
@@ -247,6 +250,8 @@ pub fn defines(
         flag("HAS_LIGHT_QUAD", light(LIGHT_QUAD));
         flag("HAS_LIGHT_DISK", light(LIGHT_DISK));
         flag("HAS_LIGHT_TRIANGLE", light(LIGHT_TRIANGLE));
+        flag("HAS_LIGHT_PART", [LIGHT_SPHERE_PART, LIGHT_DISK_PART, LIGHT_CYLINDER].into_iter().any(light));
+        flag("HAS_LIGHT_PATCH", light(LIGHT_PATCH));
         flag("HAS_ENVIRONMENT", features.environment);
         flag("ENVIRONMENT_IMAGE", features.environment_image);
         flag("ENVIRONMENT_EQUAL_AREA", features.environment_equal_area);

@@ -29,7 +29,8 @@ impl Resident {
             put("faces", &[faces, bytemuck::cast_slice(&corners)].concat())?;
         }
         let instances: &[u8] = bytemuck::cast_slice(&prepared.instances);
-        put("instances", &[instances, bytemuck::cast_slice(&prepared.motions)].concat())?;
+        let motions: &[u8] = bytemuck::cast_slice(&prepared.motions);
+        put("instances", &[instances, motions, bytemuck::cast_slice(&prepared.shapes)].concat())?;
         put("vertices", bytemuck::cast_slice(&std::mem::take(&mut prepared.vertices)))?;
         put("materials", bytemuck::cast_slice(&prepared.materials))?;
         put("details", bytemuck::cast_slice(&prepared.details))?;

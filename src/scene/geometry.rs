@@ -1,6 +1,7 @@
 //! Meshes, analytic shapes and their places in the world.
 
-use super::{Displacement, Handle, Material};
+use super::quadric::around;
+use super::{Displacement, Handle, Material, Patch, Quadric};
 use glam::{Affine3A, Mat3A, Vec2, Vec3, Vec4};
 use std::ops::Range;
 
@@ -73,18 +74,16 @@ pub enum ShapeKind {
         /// Edge along v.
         edge_v: Vec3,
     },
+    /// A part of a sphere or of a disk, or a tube.
+    Quadric(Quadric),
+    /// A bilinear patch.
+    Patch(Patch),
 }
 
 impl ShapeKind {
     /// From the unit sphere about the origin with its pole along +z, the unit disk in z = 0, or the unit square from the origin along
-    /// x and y, to the shape.
+    /// x and y, to the shape; and as [`Quadric::frame`]. A patch is where its corners are.
     pub fn frame(&self) -> Affine3A {
-        let around = |z: Vec3, along: Vec3, scale: f32, at: Vec3| {
-            let z = z.normalize();
-            let x = along.reject_from_normalized(z).normalize();
-            let m = Mat3A::from_cols((x * scale).into(), (z.cross(x) * scale).into(), (z * scale).into());
-            Affine3A { matrix3: m, translation: at.into() }
-        };
         match *self {
             Self::Sphere { center, radius, pole, meridian } => around(pole, meridian, radius, center),
             Self::Disk { center, normal, radius, meridian } => around(normal, meridian, radius, center),
@@ -94,6 +93,8 @@ impl ShapeKind {
                 let matrix3 = Mat3A::from_cols(edge_u.into(), edge_v.into(), normal.into());
                 Affine3A { matrix3, translation: origin.into() }
             }
+            Self::Quadric(quadric) => quadric.frame(),
+            Self::Patch(_) => Affine3A::IDENTITY,
         }
     }
 }
@@ -148,7 +149,7 @@ impl Mesh {
     }
 }
 
-/// A sphere, disk or quad in the world.
+/// An analytic shape in the world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
     /// Name for messages, such as `shape 3`.

@@ -11,7 +11,10 @@ mod film;
 mod geometry;
 mod light;
 mod material;
+mod patch;
+mod quadric;
 mod store;
+mod subdivide;
 mod texture;
 
 pub use camera::{
@@ -26,6 +29,8 @@ pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub(crate) use light::half_frustum;
 pub use light::{DirectionMapping, Environment, Light, LightKind, Strength, facing};
 pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Mix, Principled, Roughness, Surface};
+pub use patch::Patch;
+pub use quadric::{Extent, Quadric};
 pub use store::{Handle, Store};
 pub use texture::glsl;
 pub use texture::{
@@ -52,7 +57,7 @@ pub struct Scene {
     pub materials: Store<Material>,
     /// Triangle meshes, each in its own object space.
     pub meshes: Store<Mesh>,
-    /// Spheres, disks and quads.
+    /// Spheres, disks, quads, tubes and patches.
     pub shapes: Vec<Shape>,
     /// Meshes placed in the world.
     pub instances: Vec<Instance>,

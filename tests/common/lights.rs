@@ -27,6 +27,8 @@ pub fn samples(light: &Light, from: [f32; 3], count: usize) -> Vec<Sample> {
         #define HAS_LIGHT_QUAD
         #define HAS_LIGHT_DISK
         #define HAS_LIGHT_TRIANGLE
+        #define HAS_LIGHT_PART
+        #define HAS_LIGHT_PATCH
         #include \"light/light.glsl\"
         Light probe_light() {
             return light_unpack(fetch_points(0u), fetch_points(1u), fetch_points(2u), fetch_points(3u),

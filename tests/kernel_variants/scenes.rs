@@ -62,6 +62,27 @@ fn quad() -> ShapeKind {
     ShapeKind::Quad { origin: Vec3::ZERO, edge_u: Vec3::X, edge_v: Vec3::Z }
 }
 
+/// A tube, and parts of a sphere and of a disk.
+fn parts() -> [ShapeKind; 3] {
+    let sphere = Extent::Sphere { z_min: -0.5, z_max: 0.5 };
+    let extents = [sphere, Extent::Disk { inner_radius: 0.5 }, Extent::Cylinder { z_min: 0.0, z_max: 1.0 }];
+    let (center, radius, axis, meridian, phi_max) = (Vec3::ZERO, 1.0, Vec3::Y, Vec3::X, 270.0);
+    extents.map(|extent| ShapeKind::Quadric(Quadric { extent, center, radius, axis, meridian, phi_max }))
+}
+
+fn patch() -> ShapeKind {
+    let normals = Some([Vec3::Z; 4]);
+    ShapeKind::Patch(Patch { normals, ..Patch::new([Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE]) })
+}
+
+/// Shapes that are in no other scene, all of them lamps.
+fn curved() -> Scene {
+    let mut scene = Scene::default();
+    let lamp = material(&mut scene, diffuse(0.5), Some(constant(1.0)));
+    parts().into_iter().chain([patch()]).for_each(|kind| place_shape(&mut scene, lamp, kind));
+    scene
+}
+
 fn surroundings(radiance: Value<Vec3>) -> Option<Environment> {
     Some(Environment { scale: 2.0, ..Environment::new(radiance) })
 }
@@ -185,7 +206,7 @@ fn moving() -> Scene {
     let mut scene = Scene::default();
     let white = material(&mut scene, diffuse(0.5), Some(constant(1.0)));
     place_triangle(&mut scene, white, 1);
-    for kind in [sphere(), disk(), quad()] {
+    for kind in [sphere(), disk(), quad(), patch()].into_iter().chain(parts()) {
         place_shape(&mut scene, white, kind);
     }
     let close = Some(Affine3A::from_rotation_y(0.5));
@@ -232,7 +253,9 @@ fn trees() -> Scene {
     let (green_down, strength, tangents) = (false, 1.0, Tangents::MikkTSpace);
     detail.normal_map = Some(NormalMap { texture: last, green_down, strength, tangents });
     place_triangle(&mut scene, lamp, 1);
-    place_shape(&mut scene, lamp, sphere());
+    for kind in [sphere(), patch()].into_iter().chain(parts()) {
+        place_shape(&mut scene, lamp, kind);
+    }
     scene.environment = surroundings(Value::Texture(last));
     scene
 }
@@ -347,6 +370,7 @@ pub fn scenes() -> Vec<(&'static str, Scene)> {
         ("empty", Scene::default()),
         ("one triangle and a point light", plain()),
         ("shapes, instances, area lights, a lens", shapes()),
+        ("tubes, parts and patches that shine", curved()),
         ("glass, metal, Phong, a constant environment behind a transparent film", lobes()),
         ("textures everywhere", textured()),
         ("a principled material", bare()),

@@ -12,6 +12,7 @@ mod common;
 mod camera;
 mod cones;
 mod corners;
+mod curved;
 mod displacement;
 mod emission;
 mod environment;

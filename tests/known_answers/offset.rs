@@ -73,7 +73,7 @@ fn no_surface_shadows_itself() {
     assert!(totals.iter().all(|&(dark, lit)| dark == 0 && lit > 15_000), "dark and lit: {totals:?}");
 }
 
-/// A closed room with a floor of its own, a ball, a disk, two boxes of one mesh, and lamps of four kinds.
+/// A closed room with a floor of its own, a ball, a disk, a tube, a patch, two boxes of one mesh, and lamps of four kinds.
 fn room(scale: f32) -> Scene {
     let at = |x: f32, y: f32, z: f32| Vec3::new(x, y, z) * scale;
     let mut s = scene(32, 32, 16);
@@ -85,6 +85,11 @@ fn room(scale: f32) -> Scene {
     s.quad(at(-2.0, -0.99, 2.0), at(4.0, 0.0, 0.0), at(0.0, 0.0, -4.0), grey_paint);
     s.sphere(at(0.6, -0.59, 0.2), 0.4 * scale, white);
     s.disk(at(-1.0, 0.0, -1.0), Vec3::new(0.3, 0.2, 1.0), 0.5 * scale, mirror);
+    let extent = Extent::Cylinder { z_min: -0.59 * scale, z_max: 0.3 * scale };
+    let (center, radius, axis, meridian) = (at(1.3, -0.4, -0.7), 0.2 * scale, Vec3::Y, Vec3::X);
+    s.shape(ShapeKind::Quadric(Quadric { extent, center, radius, axis, meridian, phi_max: 280.0 }), white);
+    let corners = [at(-0.4, -0.5, -1.5), at(0.4, -0.2, -1.6), at(-0.3, 0.3, -1.4), at(0.5, 0.1, -1.0)];
+    s.shape(ShapeKind::Patch(Patch::new(corners)), grey_paint);
     let block = s.meshes.add("block", box_mesh(at(-0.2, 0.0, -0.2), at(0.2, 0.5, 0.2), false));
     for (x, angle) in [(-0.5, 0.3), (-1.2, 0.9)] {
         s.place(

@@ -4,9 +4,12 @@
 mod common;
 
 mod base;
+mod bilinear;
 mod camera;
 mod choice;
 mod cone;
+mod curved_light;
+mod curved_surface;
 mod direction;
 mod flat_light;
 mod fresnel;

@@ -9,11 +9,11 @@ fn shapes_and_transforms() {
     let cases = [
         (
             "[[shape]]\nradius = 1".into(),
-            "3:1: `kind` is missing in shape 1; kinds are \"sphere\", \"disk\", \"quad\"",
+            "3:1: `kind` is missing in shape 1; kinds are \"sphere\", \"disk\", \"quad\", \"cylinder\", \"patch\"",
         ),
         (
             "[[shape]]\nkind = 'cube'".into(),
-            "4:8: `kind` is \"cube\", must be one of \"sphere\", \"disk\", \"quad\"",
+            "4:8: `kind` is \"cube\", must be one of \"sphere\", \"disk\", \"quad\", \"cylinder\", \"patch\"",
         ),
         ("[[shape]]\nkind = 'sphere'".into(), "3:1: `radius` is missing in sphere shape 1"),
         ("[[shape]]\nkind = 'sphere'\nradius = -1".into(), "5:10: `radius` is -1, must be above 0"),
@@ -211,7 +211,7 @@ fn lights_and_environment() {
     check(&[
         (
             "[[light]]\nkind = 'sun'",
-            "2:8: `kind` is \"sun\", must be one of \"point\", \"spot\", \"projection\", \"distant\", \"sphere\", \"disk\", \"quad\"",
+            "2:8: `kind` is \"sun\", must be one of \"point\", \"spot\", \"projection\", \"distant\", \"sphere\", \"disk\", \"quad\", \"cylinder\", \"patch\"",
         ),
         ("[[light]]\nkind = 'point'\nposition = [0, 0, 0]", "1:1: `intensity` is missing in point light 1"),
         (
@@ -220,7 +220,7 @@ fn lights_and_environment() {
         ),
         (
             "[[light]]\nkind = 'point'\nposition = [0, 0, 0]\nradiance = 1",
-            "4:1: unknown key `radiance` in point light 1; it is a key of sphere, disk, quad",
+            "4:1: unknown key `radiance` in point light 1; it is a key of sphere, disk, quad, cylinder, patch",
         ),
         (
             "[[light]]\nkind = 'spot'\nposition = [0, 0, 0]\nintensity = 1",

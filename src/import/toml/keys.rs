@@ -1,5 +1,9 @@
 //! Every key of the scene language, once. `scenes/README.md` explains each of them.
 
+mod shapes;
+
+pub(super) use shapes::SHAPE;
+
 /// Keys of an object that has a `kind`.
 pub(super) struct Kinds {
     /// Keys of every kind.
@@ -301,6 +305,7 @@ pub(super) const DISPLACEMENT: &[&str] =
 pub(super) const MESH: &[&str] = &[
     "displacement",
     "file",
+    "levels",
     "materials",
     "positions",
     "triangles",
@@ -310,16 +315,8 @@ pub(super) const MESH: &[&str] = &[
     "uvs1",
     "colors",
     "smooth",
+    "subdivision",
 ];
-
-const SPHERE: &[&str] = &["center", "radius", "pole", "meridian", "displacement"];
-const DISK: &[&str] = &["center", "normal", "radius", "meridian"];
-const QUAD: &[&str] = &["origin", "center", "edge_u", "edge_v", "displacement"];
-
-pub(super) const SHAPE: Kinds = Kinds {
-    common: &["kind", "material", "transform", "transform_close"],
-    kinds: &[("sphere", SPHERE), ("disk", DISK), ("quad", QUAD)],
-};
 
 pub(super) const INSTANCE: &[&str] = &["mesh", "material", "transform", "transform_close"];
 
@@ -338,45 +335,11 @@ pub(super) const LIGHT: Kinds = Kinds {
         ("spot", SPOT),
         ("projection", PROJECTION),
         ("distant", &["direction", "from", "up", "irradiance", "scale"]),
-        (
-            "sphere",
-            &[
-                "center",
-                "radius",
-                "pole",
-                "meridian",
-                "radiance",
-                "two_sided",
-                "transform",
-                "transform_close",
-            ],
-        ),
-        (
-            "disk",
-            &[
-                "center",
-                "normal",
-                "radius",
-                "meridian",
-                "radiance",
-                "two_sided",
-                "transform",
-                "transform_close",
-            ],
-        ),
-        (
-            "quad",
-            &[
-                "origin",
-                "center",
-                "edge_u",
-                "edge_v",
-                "radiance",
-                "two_sided",
-                "transform",
-                "transform_close",
-            ],
-        ),
+        ("sphere", shapes::SPHERE_LIGHT),
+        ("disk", shapes::DISK_LIGHT),
+        ("quad", shapes::QUAD_LIGHT),
+        ("cylinder", shapes::CYLINDER_LIGHT),
+        ("patch", shapes::PATCH_LIGHT),
     ],
 };
 

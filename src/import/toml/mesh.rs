@@ -13,6 +13,11 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Keys that only inline meshes have.
 const INLINE: [&str; 7] = ["positions", "triangles", "polygons", "normals", "uvs", "uvs1", "colors"];
 
+/// Levels of subdivision when the scene does not say.
+const LEVELS: u32 = 3;
+/// One triangle becomes four million.
+const MOST_LEVELS: u32 = 10;
+
 impl Reader<'_> {
     pub fn mesh(&mut self, entry: &Entry) -> Result<()> {
         let what = format!("mesh `{}`", shown(&entry.key));
@@ -29,6 +34,12 @@ impl Reader<'_> {
         };
         if mesh.triangles.is_empty() {
             return Err(view.error(format!("{} has no triangles", view.what)));
+        }
+        if let Some(levels) = levels(&view)? {
+            mesh = mesh.loop_subdivided(levels).map_err(|error| {
+                view.error(format!("{} cannot be subdivided: {}", view.what, error.message))
+                    .help(error.help.unwrap_or_default())
+            })?;
         }
         if !smooth {
             mesh.normals = Vec::new();
@@ -76,6 +87,20 @@ impl Reader<'_> {
             Ok((entry.key.as_str(), (item, self.materials.find(item)?)))
         });
         pairs.collect()
+    }
+}
+
+/// How often a mesh is subdivided, if it is.
+fn levels(view: &View<'_>) -> Result<Option<u32>> {
+    match (view.get("subdivision"), view.get("levels")) {
+        (Some(item), _) => {
+            item.choice(&[("loop", ())])?;
+            view.u32_or("levels", LEVELS, 0, MOST_LEVELS).map(Some)
+        }
+        (None, Some(item)) => Err(item
+            .error("`levels` has no meaning without `subdivision`")
+            .help("add `subdivision = \"loop\"`")),
+        (None, None) => Ok(None),
     }
 }
 

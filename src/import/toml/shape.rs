@@ -5,10 +5,10 @@ use super::keys::{INSTANCE, SHAPE};
 use super::reader::Reader;
 use super::text::Limits;
 use super::transform::transform;
-use super::view::View;
+use super::view::{Item, View};
 use crate::Result;
-use crate::scene::{Instance, Shape, ShapeKind};
-use glam::{Affine3A, Vec3};
+use crate::scene::{Extent, Instance, Patch, Quadric, Shape, ShapeKind};
+use glam::{Affine3A, DVec3, Vec3};
 
 /// Sine of the angle below which two directions count as parallel.
 const MIN_SINE: f64 = 1e-6;
@@ -33,6 +33,11 @@ impl Reader<'_> {
                     return Err(item
                         .error("a shape that moves cannot be displaced")
                         .help("displace a mesh, and move its instance"));
+                }
+                if let ShapeKind::Quadric(_) = shape.kind {
+                    return Err(item
+                        .error("a part of a sphere cannot be displaced")
+                        .help("displace all of it, or a mesh"));
                 }
                 self.displaced_shape(shape, displacement);
             }
@@ -77,21 +82,80 @@ pub(super) fn placed(view: &View<'_>) -> Result<(Affine3A, Option<Affine3A>)> {
     Ok((open, Some(close)))
 }
 
-/// The keys of a sphere, a disk or a quad.
+/// The keys of a shape.
 pub(super) fn geometry(view: &View<'_>, kind: &str) -> Result<ShapeKind> {
     match kind {
-        "sphere" => {
-            let [pole, meridian] = axes(view, "pole")?;
-            let radius = view.need("radius")?.f32(Limits::Above(0.0))?;
-            Ok(ShapeKind::Sphere { center: view.vec3_or("center", Vec3::ZERO)?, radius, pole, meridian })
-        }
-        "disk" => {
-            let [normal, meridian] = axes(view, "normal")?;
-            let radius = view.need("radius")?.f32(Limits::Above(0.0))?;
-            Ok(ShapeKind::Disk { center: view.vec3_or("center", Vec3::ZERO)?, normal, radius, meridian })
-        }
+        "sphere" => sphere(view),
+        "disk" => disk(view),
+        "cylinder" => cylinder(view),
+        "patch" => patch(view),
         _ => quad(view),
     }
+}
+
+/// Centre and radius, and the angle up to which a shape about an axis is there.
+struct Round {
+    center: Vec3,
+    radius: f32,
+    phi_max: f32,
+}
+
+fn round(view: &View<'_>) -> Result<Round> {
+    Ok(Round {
+        center: view.vec3_or("center", Vec3::ZERO)?,
+        radius: view.need("radius")?.f32(Limits::Above(0.0))?,
+        phi_max: view.f32_or("phi_max", 360.0, Limits::AboveUpTo(0.0, 360.0))?,
+    })
+}
+
+fn sphere(view: &View<'_>) -> Result<ShapeKind> {
+    let [pole, meridian] = axes(view, "pole")?;
+    let Round { center, radius, phi_max } = round(view)?;
+    let [z_min, z_max] = heights(view, Some([-radius, radius]))?;
+    if phi_max == 360.0 && z_min == -radius && z_max == radius {
+        return Ok(ShapeKind::Sphere { center, radius, pole, meridian });
+    }
+    let extent = Extent::Sphere { z_min, z_max };
+    Ok(ShapeKind::Quadric(Quadric { extent, center, radius, axis: pole, meridian, phi_max }))
+}
+
+fn disk(view: &View<'_>) -> Result<ShapeKind> {
+    let [normal, meridian] = axes(view, "normal")?;
+    let Round { center, radius, phi_max } = round(view)?;
+    let inner_radius = view.f32_or("inner_radius", 0.0, Limits::AtLeast(0.0))?;
+    if let Some(item) = view.get("inner_radius").filter(|_| inner_radius >= radius) {
+        return Err(item.refuse(inner_radius, format!("below the radius, {radius}")));
+    }
+    if phi_max == 360.0 && inner_radius == 0.0 {
+        return Ok(ShapeKind::Disk { center, normal, radius, meridian });
+    }
+    let extent = Extent::Disk { inner_radius };
+    Ok(ShapeKind::Quadric(Quadric { extent, center, radius, axis: normal, meridian, phi_max }))
+}
+
+fn cylinder(view: &View<'_>) -> Result<ShapeKind> {
+    let [axis, meridian] = axes(view, "axis")?;
+    let Round { center, radius, phi_max } = round(view)?;
+    let [z_min, z_max] = heights(view, None)?;
+    let extent = Extent::Cylinder { z_min, z_max };
+    Ok(ShapeKind::Quadric(Quadric { extent, center, radius, axis, meridian, phi_max }))
+}
+
+/// `z_min` and `z_max`: within `range`, whose ends are their defaults; without, both are needed.
+fn heights(view: &View<'_>, range: Option<[f32; 2]>) -> Result<[f32; 2]> {
+    let limits = range.map_or(Limits::Finite, |[low, high]| Limits::From(low, high));
+    let height = |key: &str, default: Option<f32>| match (view.get(key), default) {
+        (None, Some(default)) => Ok(default),
+        _ => view.need(key)?.f32(limits),
+    };
+    let z_min = height("z_min", range.map(|[low, _]| low))?;
+    let z_max = height("z_max", range.map(|[_, high]| high))?;
+    if z_min >= z_max {
+        let item = view.get("z_max").or(view.get("z_min"));
+        let message = format!("`z_min`, {z_min}, is not below `z_max`, {z_max}");
+        return Err(item.map_or_else(|| view.error(message.clone()), |item| item.error(message.clone())));
+    }
+    Ok([z_min, z_max])
 }
 
 /// An axis (default +y) and a meridian across it (default +x, or +y when the axis is along x), both unit vectors.
@@ -131,4 +195,34 @@ fn quad(view: &View<'_>) -> Result<ShapeKind> {
         return Err(corner.error("the corner of the quad is too far away"));
     }
     Ok(ShapeKind::Quad { origin, edge_u, edge_v })
+}
+
+fn patch(view: &View<'_>) -> Result<ShapeKind> {
+    let corner = |key: &str| view.need(key)?.vec3(Limits::Finite);
+    let corners = [corner("p00")?, corner("p10")?, corner("p01")?, corner("p11")?];
+    let [p00, p10, p01, p11] = corners.map(|corner| corner.as_dvec3());
+    // Whether the triangles at opposite corners have an area
+    let at = |p: DVec3, a: DVec3, b: DVec3| {
+        let (a, b) = (a - p, b - p);
+        a.cross(b).length() > MIN_SINE * a.length() * b.length()
+    };
+    if !at(p00, p10, p01) && !at(p11, p01, p10) {
+        let message = format!("{} has no area: its corners are on one line, or `p10` is `p01`", view.what);
+        return Err(view.error(message));
+    }
+    let mut patch = Patch::new(corners);
+    if let Some(item) = view.get("normals") {
+        patch.normals = Some(four(item, |normal| normal.direction())?);
+    }
+    if let Some(item) = view.get("uvs") {
+        patch.uvs = four(item, |uv| uv.vec2(Limits::Finite))?;
+    }
+    Ok(ShapeKind::Patch(patch))
+}
+
+/// A value for each corner of a patch: p00, p10, p01, p11.
+fn four<T: Copy>(item: Item<'_>, read: impl Fn(Item<'_>) -> Result<T>) -> Result<[T; 4]> {
+    let expected = "a list of 4 values, those of p00, p10, p01 and p11";
+    let values = item.list(expected)?.map(read).collect::<Result<Vec<_>>>()?;
+    <[T; 4]>::try_from(values).map_err(|_| item.mismatch(expected))
 }

@@ -8,6 +8,7 @@ mod lights;
 mod manual;
 mod materials;
 mod patterns;
+mod shapes;
 
 use super::{Assets, Warning, read_scene_with};
 use crate::import::Spacing;
@@ -341,7 +342,7 @@ fn meshes_and_instances_take_every_key() {
     assert_eq!(car.parts[1].material, material("paint"), "by its own name");
     let given: Vec<_> = scene.instances.iter().map(|instance| Some(instance.material)).collect();
     // The first is a displaced sphere; of the materials of parts any will do
-    assert_eq!(given, ["gold", "chalk", "glass", "steel", "gold"].map(material));
+    assert_eq!(given, ["gold", "chalk", "glass", "steel", "gold", "gold"].map(material));
     let texture = scene.textures.iter().find(|found| found.1 == "squares").unwrap().0;
     let moved = Displacement {
         texture,
