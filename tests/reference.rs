@@ -9,8 +9,6 @@
 //!
 //! | reference | what it needs |
 //! |---|---|
-//! | `c_uv_quadrics` | a partial sphere |
-//! | `q_meshes` | loop subdivision, bilinear patches |
 //! | `m_principled` | Disney's principled BSDF, where dapple has that of glTF |
 
 #![allow(clippy::unwrap_used, clippy::panic)] // Helpers of tests are tests too.
@@ -83,7 +81,7 @@ macro_rules! scenes {
 }
 
 scenes! {
-    pbrt: a_cornell b_wrap d_checker e_noise f_marble_dots g_bump h_normalmap i_alpha j_thinlens k_softshadow l_materials m_instances n_infinite_const
-        n_infinite_image o_lens_dgauss o_lens_wide p_equirect p_ortho r_hardlights;
+    pbrt: a_cornell b_wrap c_uv_quadrics d_checker e_noise f_marble_dots g_bump h_normalmap i_alpha j_thinlens k_softshadow l_materials m_instances
+        n_infinite_const n_infinite_image o_lens_dgauss o_lens_wide p_equirect p_ortho q_meshes r_hardlights;
     mitsuba: m_area_lights m_bitmap_wrap_filter m_bumpmap m_cornell_saturated m_dielectric m_mask m_thinlens m_volume_texture;
 }

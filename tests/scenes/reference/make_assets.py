@@ -1,9 +1,8 @@
-"""Makes the checkerboards and the cylinder of the scenes beside it. Needs nothing but Python 3.
+"""Makes the checkerboards of the scenes beside it. Needs nothing but Python 3.
 
 A checkerboard of two colours is a picture of 2 x 2 texels that is repeated and not filtered: one repeat is 2 x 2
 squares. 16 bits a channel hold the colours to 1e-5, and the scenes read them as linear.
 """
-import math
 import pathlib
 import struct
 import zlib
@@ -27,31 +26,6 @@ def checker(name, first, second):
     png(name, [[second, first], [first, second]])
 
 
-def cylinder(name, sides):
-    """Radius 1 about z, from z = 0 to 1, open, with smooth normals: `sides` quadrangles. u goes round from +x, v is z."""
-    lines = ["ply", "format ascii 1.0", f"element vertex {2 * (sides + 1)}"]
-    lines += [f"property float {p}" for p in ("x", "y", "z", "nx", "ny", "nz", "u", "v")]
-    lines += [f"element face {sides}", "property list uchar int vertex_indices", "end_header"]
-    for i in range(sides + 1):
-        c, s = math.cos(2 * math.pi * (i % sides) / sides), math.sin(2 * math.pi * (i % sides) / sides)
-        lines += [f"{c:.8f} {s:.8f} {z} {c:.8f} {s:.8f} 0 {i / sides:.8f} {z}" for z in (0, 1)]
-    for i in range(sides):
-        lines.append(f"4 {2 * i} {2 * i + 2} {2 * i + 3} {2 * i + 1}")
-    (HERE / name).write_text("\n".join(lines) + "\n")
-
-
-def cylinder_uv(name, sides):
-    """The same with u around it and v along it."""
-    lines = ["ply", "format ascii 1.0", f"element vertex {2 * (sides + 1)}"]
-    lines += [f"property float {p}" for p in ("x", "y", "z", "nx", "ny", "nz", "u", "v")]
-    lines += [f"element face {sides}", "property list uchar int vertex_indices", "end_header"]
-    for i in range(sides + 1):
-        c, s = math.cos(2 * math.pi * i / sides), math.sin(2 * math.pi * i / sides)
-        lines += [f"{c:.8f} {s:.8f} {z} {c:.8f} {s:.8f} 0 {i / sides:.8f} {z}" for z in (0, 1)]
-    lines += [f"4 {2 * i} {2 * i + 2} {2 * i + 3} {2 * i + 1}" for i in range(sides)]
-    (HERE / name).write_text("\n".join(lines) + "\n")
-
-
 def grey(value):
     return (value, value, value)
 
@@ -60,5 +34,3 @@ checker("checker_j_thinlens.png", grey(0.6), grey(0.2))
 checker("checker_l_materials.png", grey(0.6), grey(0.25))
 checker("checker_m_dielectric.png", (0.7, 0.3, 0.1), (0.1, 0.3, 0.5))
 checker("checker_m_thinlens.png", (0.7, 0.2, 0.1), (0.1, 0.2, 0.3))
-cylinder("cylinder.ply", 256)
-cylinder_uv("cylinder_uv.ply", 256)
