@@ -70,5 +70,6 @@ Surface patch_surface(Instance instance, float t, vec3 origin, vec3 direction)
     s.material = instance.material;
     s.light = instance.light;
     s.primitive = 0u;
+    plain_corners(s);
     return s;
 }

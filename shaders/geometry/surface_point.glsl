@@ -37,6 +37,18 @@ struct Surface {
 mat2x3 by_uv1(Surface s, vec3 by_u, vec3 by_v) { return mat2x3(by_u, by_v) * s.uv_by_uv1; }
 #endif
 
+// What textures find where there are no corners, or where these have no colours and no second uv.
+void plain_corners(inout Surface s)
+{
+#ifdef HAS_VERTEX_COLOR
+    s.vertex_color = vec4(1.0);
+#endif
+#ifdef HAS_UV1
+    s.uv1 = s.uv;
+    s.uv_by_uv1 = mat2(1.0);
+#endif
+}
+
 // The derivative of a unit normal, from a normal of any length that it is the direction of, and its derivative.
 vec3 unit_derivative(vec3 normal, vec3 derivative)
 {

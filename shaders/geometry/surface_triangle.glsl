@@ -17,19 +17,16 @@ Triangle triangle_fetch(uint i)
 // What only textures ask, from `extra` of the face, or what it is without. du and dv are the edges of the first uv.
 void corners_surface(inout Surface s, uint extra, vec2 bary, vec2 du, vec2 dv)
 {
+    plain_corners(s);
+    if (extra == NONE) return;
 #ifdef HAS_VERTEX_COLOR
-    s.vertex_color = vec4(1.0);
-    if (extra != NONE) s.vertex_color = corner_color(extra, bary);
+    s.vertex_color = corner_color(extra, bary);
 #endif
 #ifdef HAS_UV1
-    s.uv1 = s.uv;
-    s.uv_by_uv1 = mat2(1.0);
-    if (extra != NONE) {
-        CornerUvs of = corner_uvs(extra);
-        mat2 edges = mat2(of.b - of.a, of.c - of.a);
-        s.uv1 = corner_uv(of, bary);
-        s.uv_by_uv1 = abs(determinant(edges)) >= 1e-9 ? mat2(du, dv) * inverse(edges) : mat2(0.0);
-    }
+    CornerUvs of = corner_uvs(extra);
+    mat2 edges = mat2(of.b - of.a, of.c - of.a);
+    s.uv1 = corner_uv(of, bary);
+    s.uv_by_uv1 = abs(determinant(edges)) >= 1e-9 ? mat2(du, dv) * inverse(edges) : mat2(0.0);
 #endif
 }
 

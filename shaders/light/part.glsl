@@ -53,7 +53,7 @@ LightSample part_sample_light(Light light, vec3 from, vec2 u01)
     float growth;
     vec3 normal = sphere_normal(map, part_normal(light, p), growth);
     float pdf = area_to_solid_angle(part_area(light) * growth, from, point, normal);
-    return light_surface_point(light, from, point, normal, pdf, part_light_uv(light, p, u01));
+    return light_surface_point(light, from, pdf, context_at(point, part_light_uv(light, p, u01), normal));
 }
 
 float part_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)

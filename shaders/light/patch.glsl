@@ -30,7 +30,7 @@ LightSample patch_sample_light(Light light, vec3 from, vec2 u01)
     vec3 normal = light.a * normalize_or(across, vec3(0.0));
     float pdf = area_to_solid_angle(length(across), vec3(0.0), bilinear_point(p.seen, u01), normal);
     vec3 point = light.position + u01.x * light.edge_u + u01.y * (light.edge_v + u01.x * vec3(light.uv0, light.uv1.x));
-    return light_surface_point(light, from, point, normal, pdf, patch_light_uv(light, u01));
+    return light_surface_point(light, from, pdf, context_at(point, patch_light_uv(light, u01), normal));
 }
 
 // The cosine is that of the normal at the point: where a ray grazes the patch, u and v are known to few digits.
