@@ -2,6 +2,7 @@
 
 use super::parse::{self, Pixel, Setting, Size};
 use clap::{Args as ClapArgs, Parser, Subcommand};
+use dapple::import::ModelChoice;
 use dapple::scene::MAX_SAMPLES;
 use dapple::scene::Rect;
 use std::path::PathBuf;
@@ -225,7 +226,7 @@ pub enum Fetch {
 #[derive(Debug, ClapArgs)]
 #[command(after_help = RENDER_HELP)]
 pub struct RenderArgs {
-    /// The scene, a TOML file
+    /// The scene, a TOML file, or a glTF model (.gltf, .glb)
     pub scene: PathBuf,
     /// The picture: .png (sRGB) or .exr (linear, all planes); default: name of the scene with .png, in this folder
     #[arg(short, long, value_name = "FILE")]
@@ -263,6 +264,9 @@ pub struct RenderArgs {
     /// Change a key of the scene, such as render.max_depth=3; may be given several times
     #[arg(long, value_name = "key=value", value_parser = parse::setting)]
     pub set: Vec<Setting>,
+    /// What is shown of models
+    #[command(flatten)]
+    pub model: ModelArgs,
     /// Print nothing but errors (and the values that --pixel asks for)
     #[arg(short, long, conflicts_with = "json")]
     pub quiet: bool,
@@ -275,6 +279,31 @@ const RENDER_HELP: &str = "Ctrl-C, SIGTERM and --time-limit end the render at a 
     write it. A second Ctrl-C quits at once.\n\
     DAPPLE_VALIDATION=1 loads the Vulkan validation layer and takes each of its messages as an error.";
 
+/// What is shown of the glTF models of a scene.
+#[derive(Debug, ClapArgs)]
+pub struct ModelArgs {
+    /// Time of the animations of glTF models, in seconds; default: what the scene says, or the pose without animations
+    #[arg(long, value_name = "S", value_parser = parse::finite, allow_negative_numbers = true)]
+    pub time: Option<f64>,
+    /// Camera of a glTF model, by its name or its number from 0; default: that of the scene, or the first of the model
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub camera: Option<String>,
+    /// Material variant of glTF models, by its name; default: what the scene says, or the materials without variants
+    #[arg(long, value_name = "NAME")]
+    pub variant: Option<String>,
+}
+
+impl ModelArgs {
+    /// The same for the library.
+    pub fn choice(&self) -> ModelChoice {
+        ModelChoice {
+            time: self.time.map(|time| time as f32),
+            camera: self.camera.clone(),
+            variant: self.variant.clone(),
+        }
+    }
+}
+
 /// `dapple devices`.
 #[derive(Debug, ClapArgs)]
 pub struct DevicesArgs {
@@ -286,11 +315,14 @@ pub struct DevicesArgs {
 /// `dapple check`.
 #[derive(Debug, ClapArgs)]
 pub struct CheckArgs {
-    /// The scene, a TOML file
+    /// The scene, a TOML file, or a glTF model (.gltf, .glb)
     pub scene: PathBuf,
     /// Change a key of the scene, such as render.max_depth=3; may be given several times
     #[arg(long, value_name = "key=value", value_parser = parse::setting)]
     pub set: Vec<Setting>,
+    /// What is shown of models
+    #[command(flatten)]
+    pub model: ModelArgs,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

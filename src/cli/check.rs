@@ -4,7 +4,7 @@ use super::args::CheckArgs;
 use super::console::Console;
 use super::devices::bytes_text;
 use dapple::Result;
-use dapple::import::{Warning, read_scene};
+use dapple::import::{ModelContents, Warning, is_model, model_contents, read_scene_showing};
 use dapple::layout::Backend;
 use dapple::prepare::{self, Prepared, Stage};
 use dapple::render;
@@ -38,17 +38,80 @@ struct Contents {
     /// Records of the scene on the device; film and waves of paths come on top, as large as the device likes them.
     scene_bytes: u64,
     warnings: Vec<String>,
+    /// What a glTF model has beside that, when the scene is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<OfModel>,
+}
+
+/// What can be chosen in a glTF model, and what else is in it.
+#[derive(Debug, Serialize)]
+struct OfModel {
+    generator: Option<String>,
+    nodes: usize,
+    skins: usize,
+    punctual_lights: usize,
+    cameras: Vec<String>,
+    variants: Vec<String>,
+    animations: Vec<Animation>,
+    extensions: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Animation {
+    name: String,
+    seconds: f32,
+}
+
+impl From<ModelContents> for OfModel {
+    fn from(model: ModelContents) -> Self {
+        let animations = model.animations.into_iter().map(|(name, seconds)| Animation { name, seconds });
+        Self {
+            generator: model.generator,
+            nodes: model.nodes,
+            skins: model.skins,
+            punctual_lights: model.lights,
+            cameras: model.cameras,
+            variants: model.variants,
+            animations: animations.collect(),
+            extensions: model.extensions,
+        }
+    }
+}
+
+impl OfModel {
+    fn rows(&self) -> Vec<(&'static str, String)> {
+        // Names come from a file: they must not control the terminal
+        let list = |names: &[String]| match names.join(", ").escape_debug().to_string() {
+            none if none.is_empty() => "none".to_owned(),
+            names => names,
+        };
+        let animation = |one: &Animation| format!("{} ({:.2} s)", one.name, one.seconds);
+        let animations: Vec<String> = self.animations.iter().map(animation).collect();
+        vec![
+            ("generator", list(self.generator.as_slice())),
+            ("nodes", self.nodes.to_string()),
+            ("skins", self.skins.to_string()),
+            ("model lights", self.punctual_lights.to_string()),
+            ("cameras", list(&self.cameras)),
+            ("variants", list(&self.variants)),
+            ("animations", list(&animations)),
+            ("extensions", list(&self.extensions)),
+        ]
+    }
 }
 
 /// Reads, prepares, prints.
 pub fn run(args: &CheckArgs, console: &mut Console) -> Result<()> {
-    let (scene, warnings) = read_scene(&args.scene, &args.set)?;
+    let (scene, warnings) = read_scene_showing(&args.scene, &args.set, &args.model.choice())?;
     if !args.json {
         warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
     }
     let prepared = prepare::prepare(&scene)?;
     compile_own_textures(&scene, &prepared)?;
-    let contents = Contents::of(&scene, &prepared, &warnings);
+    let mut contents = Contents::of(&scene, &prepared, &warnings);
+    if is_model(&args.scene) {
+        contents.model = Some(model_contents(&args.scene)?.into());
+    }
     if args.json {
         console.event(&contents);
     } else {
@@ -90,6 +153,7 @@ impl Contents {
             stack_entries: prepared.stack_entries,
             scene_bytes: prepared.bytes(),
             warnings: warnings.iter().map(Warning::to_string).collect(),
+            model: None,
         }
     }
 
@@ -112,8 +176,9 @@ impl Contents {
             ("scene records", bytes_text(self.scene_bytes)),
             ("warnings", self.warnings.len().to_string()),
         ];
+        let model = self.model.as_ref().map_or(Vec::new(), OfModel::rows);
         let mut out = String::new();
-        for (name, value) in rows {
+        for (name, value) in rows.into_iter().chain(model) {
             _ = writeln!(out, "{name:<14} {value}");
         }
         out.trim_end().to_owned()

@@ -4,7 +4,7 @@ use super::args::RenderArgs;
 use super::parse::{Pixel, Size};
 use dapple::film;
 use dapple::gpu::{DeviceChoice, validation_from_environment};
-use dapple::import::{Warning, read_scene};
+use dapple::import::{Warning, read_scene_showing};
 use dapple::scene::{Film, MAX_SAMPLES, Rect, Scene};
 use dapple::shader::{CacheOptions, Compiler, Sources};
 use dapple::{Error, Result};
@@ -31,7 +31,7 @@ impl Job {
             Some(folder) => Sources::folder(folder)?,
             None => Sources::embedded(),
         };
-        let (mut scene, warnings) = read_scene(&args.scene, &args.set)?;
+        let (mut scene, warnings) = read_scene_showing(&args.scene, &args.set, &args.model.choice())?;
         set_window(&mut scene.film, args.size, args.crop, args.pixel)?;
         scene.render.spp = args.spp.unwrap_or(scene.render.spp);
         scene.render.seed = args.seed.unwrap_or(scene.render.seed);

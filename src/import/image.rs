@@ -1,10 +1,10 @@
-//! Pictures: PNG, JPEG, Radiance HDR and OpenEXR.
+//! Pictures: PNG, JPEG, WebP, Radiance HDR and OpenEXR.
 
 use super::exr;
 use super::file::read_bytes;
 use crate::scene::{Image, Texels};
 use crate::{Error, Result};
-use image::codecs::{hdr::HdrDecoder, jpeg::JpegDecoder, png::PngDecoder};
+use image::codecs::{hdr::HdrDecoder, jpeg::JpegDecoder, png::PngDecoder, webp::WebPDecoder};
 use image::{DynamicImage, ImageDecoder, ImageError, Limits};
 use std::io::{Cursor, Read};
 use std::path::Path;
@@ -14,7 +14,7 @@ const LARGEST_SIDE: u32 = 16384;
 
 /// Reads a picture, with its format taken from the content of the file and not from its name.
 ///
-/// Numbers stay as they are stored: 8 and 16 bits for PNG, 8 for JPEG, floats for HDR and EXR. Palettes become
+/// Numbers stay as they are stored: 8 and 16 bits for PNG, 8 for JPEG and WebP, floats for HDR and EXR. Palettes become
 /// colours, CMYK becomes RGB. Of an EXR file the first part is read, over its data window: R, G, B, A, or else Y
 /// or the only channel as grey. Orientation tags and colour profiles are passed over.
 ///
@@ -25,13 +25,17 @@ pub fn read_image(path: &Path) -> Result<Image> {
     decode(&read_bytes(path)?).map_err(|error| error.in_file(path))
 }
 
-fn decode(bytes: &[u8]) -> Result<Image> {
+/// The same from the bytes of a file.
+pub(super) fn decode(bytes: &[u8]) -> Result<Image> {
     match bytes {
         [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => {
             let limits = Limits::default();
             with_decoder(PngDecoder::with_limits(Cursor::new(bytes), limits), bytes)
         }
         [0xff, 0xd8, 0xff, ..] => with_decoder(JpegDecoder::new(Cursor::new(bytes)), bytes),
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => {
+            with_decoder(WebPDecoder::new(Cursor::new(bytes)), bytes)
+        }
         [0x76, 0x2f, 0x31, 0x01, ..] => exr::decode(bytes),
         [b'#', b'?', ..] => {
             // `image` takes no other first line than its own; programs have written `#?RGBE` and their names.
@@ -44,7 +48,9 @@ fn decode(bytes: &[u8]) -> Result<Image> {
                 Err(Error::scene("the picture has too long a run of pixels").help("write it again"))
             })
         }
-        _ => Err(Error::scene("this is no picture of a known format").help("use PNG, JPEG, HDR or EXR")),
+        _ => {
+            Err(Error::scene("this is no picture of a known format").help("use PNG, JPEG, WebP, HDR or EXR"))
+        }
     }
 }
 

@@ -1,26 +1,27 @@
 //! What the mesh readers share: choice of the format, polygons to triangles, unit normals.
 
-use super::{obj::read_obj, ply::read_ply};
+use super::{gltf::read_gltf_mesh, obj::read_obj, ply::read_ply};
 use crate::scene::Mesh;
 use crate::{Error, Result};
 use glam::{DVec3, Vec3};
 use std::path::Path;
 
-/// Reads a triangle mesh from an OBJ or PLY file, chosen by the extension of its name in any case of letters.
+/// Reads a triangle mesh from an OBJ, PLY or glTF file, chosen by the extension of its name in any case of letters.
 ///
 /// # Errors
-/// Another extension, and all errors of [`read_obj`] and [`read_ply`].
+/// Another extension, and all errors of [`read_obj`], [`read_ply`] and [`read_gltf_mesh`].
 pub fn read_mesh(path: &Path) -> Result<Mesh> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
         Some("obj") => read_obj(path),
         Some("ply") => read_ply(path),
+        Some("gltf" | "glb") => read_gltf_mesh(path),
         other => {
             let kind = match other {
                 Some(e) => format!("the extension `.{e}` is no mesh format that can be read"),
                 None => "the name has no extension that tells the mesh format".into(),
             };
-            Err(Error::scene(kind).help("use an .obj or .ply file").in_file(path))
+            Err(Error::scene(kind).help("use an .obj, .ply, .gltf or .glb file").in_file(path))
         }
     }
 }
@@ -187,7 +188,7 @@ mod tests {
         let error = read_mesh(Path::new("a.stl")).unwrap_err().to_string();
         assert_eq!(
             error,
-            "a.stl: the extension `.stl` is no mesh format that can be read; use an .obj or .ply file"
+            "a.stl: the extension `.stl` is no mesh format that can be read; use an .obj, .ply, .gltf or .glb file"
         );
         assert!(read_mesh(Path::new("a")).is_err());
         // A known extension in capitals reaches the reader, which does not find the file.

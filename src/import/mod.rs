@@ -2,6 +2,8 @@
 
 mod exr;
 mod file;
+mod framing;
+mod gltf;
 mod image;
 mod lens;
 mod mesh;
@@ -10,9 +12,13 @@ mod ply;
 mod ply_header;
 mod ply_vertices;
 mod srgb;
+mod studio;
 mod toml;
 mod volume;
 
+pub use self::gltf::{
+    Model, ModelCamera, ModelChoice, ModelContents, is_model, model_contents, read_gltf_mesh, read_model,
+};
 pub use self::toml::{Assets, Warning, read_scene_with};
 pub use image::read_image;
 pub use lens::{Spacing, read_lens};
@@ -42,10 +48,24 @@ impl Assets for Files {
     }
 }
 
-/// Reads a scene file and everything that it names. `overrides` are key and value as in `--set key=value`.
+/// Reads a scene file and everything that it names. `overrides` are key and value as in `--set key=value`. A `.gltf` or `.glb` file is a
+/// scene with one instance of that model.
 ///
 /// # Errors
-/// The first thing that is wrong, with file, line and column. See `scenes/README.md` for the language.
+/// The first thing that is wrong, with file, line and column, or with file and JSON pointer. See `scenes/README.md` for the
+/// language, and `scenes/gltf.md` for models.
 pub fn read_scene(path: &Path, overrides: &[(String, String)]) -> Result<(Scene, Vec<Warning>)> {
-    read_scene_with(path, overrides, &mut Files)
+    read_scene_showing(path, overrides, &ModelChoice::default())
+}
+
+/// The same, with a choice of time, camera and variant of the models in it, which wins over what the scene says.
+///
+/// # Errors
+/// Those of [`read_scene`], and a choice that the models do not have.
+pub fn read_scene_showing(
+    path: &Path,
+    overrides: &[(String, String)],
+    choice: &ModelChoice,
+) -> Result<(Scene, Vec<Warning>)> {
+    read_scene_with(path, overrides, choice, &mut Files)
 }

@@ -9,8 +9,9 @@ use glam::{Vec2, Vec3};
 /// Tangents of the corners of triangles, and the side on which the bitangent is: 1 or −1 times normal × tangent.
 pub(super) type CornerTangents = Vec<[(Vec3, f32); 3]>;
 
-/// Tangents by MikkTSpace (Mikkelsen 2008), when a mesh has uv and is placed with a normal map that wants them. They are those of the
-/// set of texture coordinates by which the map is placed: that of the material of a triangle, or of the first that it is placed with.
+/// Tangents of the vertices, or else by MikkTSpace (Mikkelsen 2008), when a mesh has uv and is placed with a normal map that wants
+/// them. The latter are those of the set of texture coordinates by which the map is placed: that of the material of a triangle, or of
+/// the first that it is placed with.
 pub(super) fn of(
     scene: &Scene,
     mesh: &Mesh,
@@ -25,6 +26,10 @@ pub(super) fn of(
     let rest = placed_with.into_iter().find_map(uvs);
     let parts = mesh.parts.iter().filter_map(|part| part.material);
     let any = rest.or(parts.into_iter().find_map(uvs))?;
+    if mesh.tangents.len() == mesh.positions.len() {
+        let given = |corner: u32| mesh.tangents[corner as usize];
+        return Some(mesh.triangles.iter().map(|t| t.map(given).map(|t| (t.truncate(), t.w))).collect());
+    }
     let own = part_materials(mesh);
     let of = |i: usize| own.get(i).copied().flatten().map_or(rest, uvs).unwrap_or(any);
     let uvs = (0..mesh.triangles.len()).map(of).collect();

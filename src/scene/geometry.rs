@@ -29,6 +29,9 @@ pub struct Mesh {
     pub uvs1: Vec<Vec2>,
     /// Linear colours with alpha, one a vertex; empty = white.
     pub colors: Vec<Vec4>,
+    /// Tangents for normal maps, one a vertex: unit length, and in w the side of the bitangent, 1 or −1 times normal × tangent;
+    /// empty = by MikkTSpace.
+    pub tangents: Vec<Vec4>,
     /// Three vertex indices a triangle, all below `positions.len()`.
     pub triangles: Vec<[u32; 3]>,
     /// Parts that cover `triangles` without overlap, in order.

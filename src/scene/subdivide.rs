@@ -90,6 +90,7 @@ impl Mesh {
             normals: of(&normals),
             uvs: cage.attributes(&self.uvs, |vertex| vertex.uv),
             uvs1: cage.attributes(&self.uvs1, |vertex| vertex.uv1),
+            tangents: Vec::new(),
             colors: cage.attributes(&self.colors, |vertex| vertex.color),
             triangles: if cage.vertices.is_empty() { cage.triangles } else { cage.corners },
             parts: self.parts.iter().map(part).collect(),

@@ -7,7 +7,7 @@ mod objects;
 mod shapes;
 mod textures;
 
-use dapple::import::{Assets, Spacing, read_lens, read_scene_with};
+use dapple::import::{Assets, ModelChoice, Spacing, read_lens, read_scene_with};
 use dapple::scene::{Image, LensSystem, Mesh, MeshPart, Texels};
 use dapple::{Error, Result};
 use glam::Vec3;
@@ -55,7 +55,12 @@ impl Assets for Memory {
 
 fn message(files: &[(&'static str, String)], set: &[(&str, &str)]) -> String {
     let set: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-    match read_scene_with(Path::new("scene.toml"), &set, &mut Memory(files.iter().cloned().collect())) {
+    match read_scene_with(
+        Path::new("scene.toml"),
+        &set,
+        &ModelChoice::default(),
+        &mut Memory(files.iter().cloned().collect()),
+    ) {
         Ok(_) => "no error".into(),
         Err(error) => error.to_string(),
     }

@@ -200,7 +200,7 @@ fn meshes_and_instances() {
         ("[[instance]]\nmesh = 'm'".into(), "4:8: no mesh is named `m`; there are no meshes"),
         (
             "[[instance]]\nname = 'm'".into(),
-            "4:1: unknown key `name` in instance 1; its keys are `mesh`, `material`, `transform`, `transform_close`",
+            "4:1: unknown key `name` in instance 1; its keys are `mesh`, `material`, `transform`, `transform_close`, `file`, `time`, `variant`",
         ),
     ];
     check_with_material(&cases.iter().map(|(text, message)| (text.as_str(), *message)).collect::<Vec<_>>());

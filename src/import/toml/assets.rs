@@ -1,7 +1,7 @@
 //! What the scene reader needs from the file system.
 
-use crate::import::Spacing;
-use crate::scene::{Image, LensSystem, Mesh};
+use crate::import::{Model, ModelChoice, Spacing};
+use crate::scene::{Image, LensSystem, Mesh, Scene};
 use crate::{Error, Result};
 use std::fs::File;
 use std::io::Read;
@@ -23,6 +23,14 @@ pub trait Assets {
     /// # Errors
     /// When the file cannot be read or is no mesh.
     fn mesh(&mut self, path: &Path) -> Result<Mesh>;
+
+    /// Reads a glTF model into a scene.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is no model.
+    fn model(&mut self, path: &Path, choice: &ModelChoice, scene: &mut Scene) -> Result<Model> {
+        crate::import::read_model(path, choice, scene)
+    }
 
     /// Reads a lens of several elements.
     ///

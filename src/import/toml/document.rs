@@ -80,7 +80,7 @@ impl Table {
 struct Source {
     path: PathBuf,
     directory: PathBuf,
-    /// Empty for `--set`, where no line can be given.
+    /// None for `--set` and what no text says, where no line can be given.
     text: Option<String>,
 }
 
@@ -102,6 +102,12 @@ impl Sources {
         let directory = path.parent().unwrap_or(Path::new("")).to_path_buf();
         let path = PathBuf::from(format!("--set {}={}", shown(key), shown(value)));
         self.add(Source { path, directory, text: None })
+    }
+
+    /// Adds a document that no text says, about a file, and gives its index.
+    pub fn add_implied(&mut self, path: &Path) -> u32 {
+        let directory = path.parent().unwrap_or(Path::new("")).to_path_buf();
+        self.add(Source { path: path.to_path_buf(), directory, text: None })
     }
 
     fn add(&mut self, source: Source) -> u32 {

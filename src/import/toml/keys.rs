@@ -318,7 +318,8 @@ pub(super) const MESH: &[&str] = &[
     "subdivision",
 ];
 
-pub(super) const INSTANCE: &[&str] = &["mesh", "material", "transform", "transform_close"];
+pub(super) const INSTANCE: &[&str] =
+    &["mesh", "material", "transform", "transform_close", "file", "time", "variant"];
 
 /// Steps of a `transform`.
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];

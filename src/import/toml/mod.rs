@@ -17,6 +17,7 @@ mod light;
 mod material;
 mod mesh;
 mod mix;
+mod model;
 mod names;
 mod overrides;
 mod reader;
@@ -32,6 +33,7 @@ mod tests;
 
 pub use assets::Assets;
 
+use crate::import::{ModelChoice, is_model};
 use crate::scene::Scene;
 use crate::{Place, Result};
 use std::fmt;
@@ -57,17 +59,21 @@ impl fmt::Display for Warning {
 /// Reads a scene file, the files that it includes, and the pictures and meshes that it names.
 ///
 /// `overrides` are the key and value of each `--set key=value`, such as `render.spp` and `16`. They are applied in
-/// order before the scene is read; file names in them are relative to the scene file.
+/// order before the scene is read; file names in them are relative to the scene file. `choice` is what is shown of glTF models.
 ///
 /// # Errors
 /// The first thing that is wrong, with file, line and column, or with the `--set` that it comes from.
 pub fn read_scene_with(
     path: &Path,
     overrides: &[(String, String)],
+    choice: &ModelChoice,
     assets: &mut dyn Assets,
 ) -> Result<(Scene, Vec<Warning>)> {
     let mut sources = document::Sources::default();
-    let mut document = include::load(path, assets, &mut sources)?;
+    let mut document = match is_model(path) {
+        true => model::document(&mut sources, path)?,
+        false => include::load(path, assets, &mut sources)?,
+    };
     overrides::apply(&mut sources, path, &mut document, overrides)?;
-    reader::read(&sources, assets, &document)
+    reader::read(&sources, assets, choice, &document)
 }

@@ -3,7 +3,9 @@
 use super::Warning;
 use super::assets::Assets;
 use super::document::{Data, Entry, Node, Sources, Spot, Table};
+use super::model::Models;
 use super::names::Names;
+use crate::import::ModelChoice;
 use crate::scene::{Handle, Image, Material, Mesh, Scene, Texture};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
@@ -22,6 +24,7 @@ pub(super) struct Reader<'a> {
     pub meshes: Names<Mesh>,
     /// Pictures that are loaded already, by the identity of the file.
     pub images: BTreeMap<PathBuf, Handle<Image>>,
+    pub models: Models,
     warnings: Vec<(Spot, String)>,
 }
 
@@ -29,6 +32,7 @@ pub(super) struct Reader<'a> {
 pub(super) fn read(
     sources: &Sources,
     assets: &mut dyn Assets,
+    choice: &ModelChoice,
     document: &Table,
 ) -> Result<(Scene, Vec<Warning>)> {
     let mut reader = Reader {
@@ -39,6 +43,7 @@ pub(super) fn read(
         materials: Names::new(["material", "materials"]),
         meshes: Names::new(["mesh", "meshes"]),
         images: BTreeMap::new(),
+        models: Models::showing(choice),
         warnings: Vec::new(),
     };
     // What is quick to check comes before the files that may be large.
@@ -62,12 +67,15 @@ pub(super) fn read(
     if let Some(entry) = document.get("environment") {
         reader.environment(&entry.node)?;
     }
+    let shining = reader.scene.materials.iter().any(|(_, _, material)| material.emission.is_some());
+    let shines = shining || !reader.scene.lights.is_empty() || reader.scene.environment.is_some();
     for entry in named(document, "mesh") {
         reader.mesh(entry)?;
     }
     for (index, node) in listed(document, "instance") {
         reader.instance(index, node)?;
     }
+    reader.complete_from_models(document, shines)?;
     Ok(reader.finish())
 }
 
@@ -95,7 +103,8 @@ impl Reader<'_> {
             *message = format!("{more} more warnings from here on");
         }
         let warning = |(spot, message)| Warning { place: self.sources.place(spot), message };
-        (self.scene, self.warnings.into_iter().take(MAX_WARNINGS + 1).map(warning).collect())
+        let own = self.warnings.into_iter().take(MAX_WARNINGS + 1).map(warning);
+        (self.scene, own.chain(self.models.warnings).collect())
     }
 }
 

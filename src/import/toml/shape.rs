@@ -49,6 +49,14 @@ impl Reader<'_> {
     pub fn instance(&mut self, index: usize, node: &Node) -> Result<()> {
         let name = format!("instance {index}");
         let view = View::new(self.sources, node, name.clone(), INSTANCE)?;
+        if let Some(file) = view.get("file") {
+            return self.model_instance(&view, file);
+        }
+        if let Some(item) = ["time", "variant"].iter().find_map(|key| view.get(key)) {
+            return Err(item
+                .error(format!("{} needs a `file`", item.name()))
+                .help("name a glTF model in `file`"));
+        }
         let mesh = self.meshes.find(view.need("mesh")?)?;
         let parts = &self.scene.meshes[mesh].parts;
         let material = match (view.get("material"), parts.first().and_then(|part| part.material)) {

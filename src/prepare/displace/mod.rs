@@ -146,6 +146,8 @@ fn moved(
         } else {
             refined.vertices.iter().map(|v| v.color).collect()
         },
+        // Those of the mesh were along the surface that has been moved
+        tangents: Vec::new(),
         parts: mesh.parts.iter().zip(&refined.parts).map(part).collect(),
         triangles: refined.triangles,
         displacement: None,

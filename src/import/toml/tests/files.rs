@@ -1,6 +1,7 @@
 //! Several files, `--set`, and warnings.
 
 use super::{Memory, read, read_scene_with, read_set};
+use crate::import::ModelChoice;
 use crate::scene::*;
 use glam::Vec3;
 use std::path::Path;
@@ -26,7 +27,8 @@ fn includes_join_tables_and_the_including_file_wins() {
         ),
     ];
     let mut memory = Memory::new(&files);
-    let (scene, warnings) = read_scene_with(Path::new("a/scene.toml"), &[], &mut memory).unwrap();
+    let (scene, warnings) =
+        read_scene_with(Path::new("a/scene.toml"), &[], &ModelChoice::default(), &mut memory).unwrap();
     assert_eq!((scene.render.spp, scene.render.seed), (5, 4));
     assert_eq!(scene.shapes.len(), 1, "base.toml is read once");
     let lens = scene.camera.thin_lens().unwrap();

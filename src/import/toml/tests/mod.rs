@@ -11,7 +11,7 @@ mod patterns;
 mod shapes;
 
 use super::{Assets, Warning, read_scene_with};
-use crate::import::Spacing;
+use crate::import::{Model, ModelChoice, Spacing};
 use crate::scene::*;
 use crate::{Error, Result};
 use glam::{Affine3A, Vec2, Vec3};
@@ -56,6 +56,18 @@ impl Assets for Memory {
         })
     }
 
+    fn model(&mut self, path: &Path, choice: &ModelChoice, scene: &mut Scene) -> Result<Model> {
+        let shown = format!("{} {:?} {:?}", path.display(), choice.time, choice.variant);
+        self.loaded.push(shown.clone());
+        let white = Material::new(Surface::Unlit { color: Value::Constant(Vec3::ONE) }, None);
+        let (mesh, material) = (self.mesh(Path::new("car.obj"))?, scene.materials.add("white of a model", white));
+        let mesh = scene.meshes.add("model", mesh);
+        let world_from_object = Affine3A::from_translation(Vec3::X);
+        let instance = Instance { name: shown, mesh, material, world_from_object, at_close: None };
+        let lights = vec![Light::Distant { direction: -Vec3::Y, irradiance: Vec3::ONE }];
+        Ok(Model { instances: vec![instance], lights, ..Model::default() })
+    }
+
     fn lens(&mut self, path: &Path, spacing: Spacing) -> Result<LensSystem> {
         let text = "# A singlet\n50 4 1.5 20 60\n-50 2 1 20\n0 0 0 9\n";
         crate::import::lens::parse(text, spacing, path)
@@ -76,7 +88,12 @@ fn read(text: &str) -> Result<(Scene, Vec<Warning>)> {
 
 fn read_set(text: &str, set: &[(&str, &str)]) -> Result<(Scene, Vec<Warning>)> {
     let set: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-    read_scene_with(Path::new("scene.toml"), &set, &mut Memory::new(&[("scene.toml", text)]))
+    read_scene_with(
+        Path::new("scene.toml"),
+        &set,
+        &ModelChoice::default(),
+        &mut Memory::new(&[("scene.toml", text)]),
+    )
 }
 
 /// Uses every key of every table.
@@ -342,7 +359,8 @@ fn meshes_and_instances_take_every_key() {
     assert_eq!(car.parts[1].material, material("paint"), "by its own name");
     let given: Vec<_> = scene.instances.iter().map(|instance| Some(instance.material)).collect();
     // The first is a displaced sphere; of the materials of parts any will do
-    assert_eq!(given, ["gold", "chalk", "glass", "steel", "gold", "gold"].map(material));
+    assert_eq!(given, ["gold", "chalk", "glass", "white of a model", "steel", "gold", "gold"].map(material));
+    assert!(scene.instances[3].name.ends_with("chair.glb Some(1.5) Some(\"red\")"), "{}", scene.instances[3].name);
     let texture = scene.textures.iter().find(|found| found.1 == "squares").unwrap().0;
     let moved = Displacement {
         texture,

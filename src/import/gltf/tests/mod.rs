@@ -1,0 +1,1 @@
+//! Models from documents that the tests make.
