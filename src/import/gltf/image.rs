@@ -17,7 +17,10 @@ impl Reader<'_> {
             None => texture.get("source")?,
         };
         match source {
-            Some(source) => self.image(&source).map(Some),
+            Some(source) => {
+                let count = self.document.root.list("images")?.len();
+                self.image(index_into(&source, "images", count)?).map(Some)
+            }
             None if texture.extension("KHR_texture_basisu")?.is_some() => Err(texture
                 .error("the texture is in KTX2 alone (KHR_texture_basisu), which dapple does not read")
                 .help("export the model with PNG, JPEG or WebP")),
@@ -25,9 +28,9 @@ impl Reader<'_> {
         }
     }
 
-    fn image(&mut self, reference: &Json<'_>) -> Result<Handle<Image>> {
+    /// A picture of the document.
+    pub fn image(&mut self, index: usize) -> Result<Handle<Image>> {
         let images = self.document.root.list("images")?;
-        let index = index_into(reference, "images", images.len())?;
         if let Some(known) = self.images.get(&index) {
             return Ok(*known);
         }

@@ -127,8 +127,20 @@ impl<'a> Reader<'a> {
             };
             self.place(&mut model, node, &meshes, &maps)?;
         }
+        if model.instances.is_empty() {
+            self.look_at_all(&sources)?;
+        }
         model.warnings = self.warnings.into_iter().collect();
         Ok(model)
+    }
+
+    /// Reads what nothing shows: of a file that shows nothing, what is wrong with its parts says more than that.
+    fn look_at_all(&mut self, sources: &[Source<'a>]) -> Result<()> {
+        for source in sources {
+            self.mesh(source, &Pose { weights: &source.weights, joints: None })?;
+        }
+        (0..self.materials.len()).try_for_each(|material| self.material(Some(material)).map(drop))?;
+        self.document.root.list("images")?.iter().enumerate().try_for_each(|(i, _)| self.image(i).map(drop))
     }
 
     fn place(

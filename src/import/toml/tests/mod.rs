@@ -60,7 +60,8 @@ impl Assets for Memory {
         let shown = format!("{} {:?} {:?}", path.display(), choice.time, choice.variant);
         self.loaded.push(shown.clone());
         let white = Material::new(Surface::Unlit { color: Value::Constant(Vec3::ONE) }, None);
-        let (mesh, material) = (self.mesh(Path::new("car.obj"))?, scene.materials.add("white of a model", white));
+        let (mesh, material) =
+            (self.mesh(Path::new("car.obj"))?, scene.materials.add("white of a model", white));
         let mesh = scene.meshes.add("model", mesh);
         let world_from_object = Affine3A::from_translation(Vec3::X);
         let instance = Instance { name: shown, mesh, material, world_from_object, at_close: None };
@@ -360,7 +361,11 @@ fn meshes_and_instances_take_every_key() {
     let given: Vec<_> = scene.instances.iter().map(|instance| Some(instance.material)).collect();
     // The first is a displaced sphere; of the materials of parts any will do
     assert_eq!(given, ["gold", "chalk", "glass", "white of a model", "steel", "gold", "gold"].map(material));
-    assert!(scene.instances[3].name.ends_with("chair.glb Some(1.5) Some(\"red\")"), "{}", scene.instances[3].name);
+    assert!(
+        scene.instances[3].name.ends_with("chair.glb Some(1.5) Some(\"red\")"),
+        "{}",
+        scene.instances[3].name
+    );
     let texture = scene.textures.iter().find(|found| found.1 == "squares").unwrap().0;
     let moved = Displacement {
         texture,

@@ -1,0 +1,116 @@
+//! Triangles of all modes, and vertices of meshes with several primitives.
+
+use super::*;
+use glam::{Vec2, Vec3};
+
+/// Triangles of a primitive of five vertices in a row.
+fn triangles(mode: Option<u32>, indices: Option<(u32, &[u32])>) -> Vec<[u32; 3]> {
+    let mut maker = Maker::new();
+    let positions = maker.floats(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|x| [x, x * x, 0.0]));
+    let mut primitive = json!({ "attributes": { "POSITION": positions } });
+    if let Some(mode) = mode {
+        primitive["mode"] = json!(mode);
+    }
+    if let Some((component, indices)) = indices {
+        let size = match component {
+            U8 => 1,
+            U16 => 2,
+            _ => 4,
+        };
+        let bytes: Vec<u8> = indices.iter().flat_map(|i| i.to_le_bytes()[..size].to_vec()).collect();
+        primitive["indices"] = json!(maker.accessor("SCALAR", component, indices.len(), &bytes));
+    }
+    maker.add("meshes", json!({ "primitives": [primitive] }));
+    maker.add("nodes", json!({ "mesh": 0 }));
+    only_mesh(&maker.read().unwrap()).triangles.clone()
+}
+
+#[test]
+fn lists_strips_and_fans_become_triangles() {
+    // The specification, section 3.7.2.1
+    assert_eq!(triangles(None, None), [[0, 1, 2], [3, 4, 5]]);
+    assert_eq!(triangles(Some(5), None), [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]]);
+    assert_eq!(triangles(Some(6), None), [[1, 2, 0], [2, 3, 0], [3, 4, 0], [4, 5, 0]]);
+    for component in [U8, U16, 5125] {
+        let indices = Some((component, &[5, 1, 3, 0][..]));
+        assert_eq!(triangles(Some(4), indices), [[5, 1, 3]], "what is left over is no triangle");
+        assert_eq!(triangles(Some(5), indices), [[5, 1, 3], [1, 0, 3]]);
+        assert_eq!(triangles(Some(6), indices), [[1, 3, 5], [3, 0, 5]]);
+    }
+}
+
+#[test]
+fn points_and_lines_are_left_out_with_a_warning() {
+    for mode in 0..4 {
+        let mut maker = Maker::triangle();
+        let points = json!({ "attributes": { "POSITION": 0 }, "mode": mode });
+        maker.root["meshes"][0]["primitives"].as_array_mut().unwrap().push(points);
+        let read = maker.read().unwrap();
+        assert_eq!(only_mesh(&read).triangles, [[0, 1, 2]]);
+        assert!(
+            read.1.warnings[0].starts_with("/meshes/0/primitives/1: points, lines"),
+            "{:?}",
+            read.1.warnings
+        );
+        maker.root["meshes"][0]["primitives"].as_array_mut().unwrap().remove(0);
+        assert_eq!(maker.error(), "the scene of the model has no triangles");
+    }
+}
+
+#[test]
+fn indices_beyond_the_vertices_are_refused() {
+    let mut maker = Maker::triangle();
+    let indices = maker.accessor("SCALAR", U8, 3, &[0, 1, 3]);
+    maker.root["meshes"][0]["primitives"][0]["indices"] = json!(indices);
+    assert_eq!(maker.error(), "/meshes/0/primitives/0/indices: index 2 names vertex 3, and there are 3");
+}
+
+#[test]
+fn primitives_share_vertices_and_are_joined_where_their_attributes_agree() {
+    let mut maker = Maker::triangle();
+    let other = maker.floats(&[[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [0.0, 1.0, 5.0]]);
+    let normals = maker.floats(&[[0.0, 0.0, 2.0]; 3]);
+    let primitives = maker.root["meshes"][0]["primitives"].as_array_mut().unwrap();
+    primitives.push(json!({ "attributes": { "POSITION": 0, "TEXCOORD_0": 1 } }));
+    primitives.push(json!({ "attributes": { "POSITION": other, "TEXCOORD_0": 1 } }));
+    primitives.push(json!({ "attributes": { "POSITION": other, "NORMAL": normals } }));
+    let (scene, model) = maker.read().unwrap();
+    let meshes: Vec<&Mesh> = model.instances.iter().map(|instance| &scene.meshes[instance.mesh]).collect();
+    assert_eq!(meshes.len(), 2);
+    assert_eq!(meshes[0].triangles, [[0, 1, 2], [0, 1, 2], [3, 4, 5]]);
+    assert_eq!((meshes[0].positions.len(), meshes[0].parts.len()), (6, 3));
+    assert_eq!(meshes[0].positions[3], Vec3::new(0.0, 0.0, 5.0));
+    assert!(meshes[0].normals.is_empty(), "flat");
+    // v runs upwards
+    assert_eq!(meshes[0].uvs[..3], [Vec2::ZERO, Vec2::X, Vec2::Y]);
+    assert_eq!(meshes[1].normals, [Vec3::Z; 3]);
+}
+
+#[test]
+fn quantized_attributes_are_numbers_of_their_own() {
+    // KHR_mesh_quantization: positions of bytes that are not normalised, normals that are
+    let mut maker = Maker::new();
+    let positions = maker.accessor("VEC3", 5120, 3, &[0, 0, 0, 0, 100, 0, 0, 0, 0, 0x9c, 0, 0]);
+    maker.root["bufferViews"][0]["byteStride"] = json!(4);
+    let normals = maker.accessor("VEC3", 5120, 3, &[0, 0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0]);
+    maker.root["bufferViews"][1]["byteStride"] = json!(4);
+    maker.root["accessors"][normals]["normalized"] = json!(true);
+    let attributes = json!({ "POSITION": positions, "NORMAL": normals });
+    maker.add("meshes", json!({ "primitives": [{ "attributes": attributes }] }));
+    maker.add("nodes", json!({ "mesh": 0 }));
+    maker.root.insert("extensionsRequired".into(), json!(["KHR_mesh_quantization"]));
+    let read = maker.read().unwrap();
+    assert_eq!(only_mesh(&read).positions, [Vec3::ZERO, Vec3::X * 100.0, Vec3::Y * -100.0]);
+    assert_eq!(only_mesh(&read).normals, [Vec3::Z; 3]);
+}
+
+#[test]
+fn tangents_of_the_file_are_kept() {
+    let mut maker = Maker::triangle();
+    let normals = maker.floats(&[[0.0, 0.0, 1.0]; 3]);
+    let tangents = maker.floats(&[[0.0, 1.0, 0.0, -1.0]; 3]);
+    maker.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = json!(tangents);
+    assert!(only_mesh(&maker.read().unwrap()).tangents.is_empty(), "they need normals");
+    maker.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(normals);
+    assert_eq!(only_mesh(&maker.read().unwrap()).tangents, [glam::Vec4::new(0.0, 1.0, 0.0, -1.0); 3]);
+}
