@@ -1,7 +1,7 @@
 //! The readers against the collection of good and malformed files in `../shared/assets`.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // Helpers of tests are tests too.
-use dapple::import::{read_image, read_mesh};
+use dapple::import::{read_image, read_mesh, read_scene};
 use dapple::scene::{Image, Texels};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -42,6 +42,7 @@ fn malformed_files_are_refused_in_time_and_memory() {
         let result = match row[0].split('/').next().unwrap() {
             "obj" | "ply" => read_mesh(&path).map(drop),
             "png" | "jpeg" | "exr" | "hdr" => read_image(&path).map(drop),
+            "gltf" => read_scene(&path, &[]).map(drop),
             _ => continue,
         };
         assert!(start.elapsed() < Duration::from_secs(2), "{} took {:?}", row[0], start.elapsed());
@@ -57,7 +58,7 @@ fn malformed_files_are_refused_in_time_and_memory() {
         }
         checked += 1;
     }
-    assert!(checked >= 58, "only {checked} files");
+    assert!(checked >= 111, "only {checked} files");
     // The largest good file of the other tests needs less than this, and a picture of 16384 × 16384 more.
     assert!(peak_memory_mib() < 512, "{} MiB", peak_memory_mib());
 }
