@@ -57,7 +57,7 @@ fn all_modes_of_triangles_show_the_same_square() {
         for (a, b) in plain.depth.iter().zip(&other.depth) {
             assert!(a == b || (a - b).abs() < 1e-5 * a, "{number}: {a} {b}");
         }
-        expect_same(mean(&other), mean(&plain), 1e-3);
+        assert_eq!(other.alpha, plain.alpha, "{number}");
     }
 }
 
@@ -66,7 +66,7 @@ fn roughness_from_a_texture_is_that_of_the_factor() {
     let Some(file) = model("roughness-scale/scene.gltf") else { return };
     let scene = scene_with(
         &file,
-        "film.size = [120, 72]\nrender = { spp = 64, max_depth = 1 }\n\
+        "film.size = [120, 72]\nrender = { spp = 160, max_depth = 1 }\n\
          camera = { kind = 'orthographic', position = [20, 0, 0], view_size = 9 }\n\
          light = [{ kind = 'distant', direction = [-1, -0.5, 0.3], irradiance = 3 }]",
     );
@@ -136,7 +136,7 @@ fn a_sparse_accessor_moves_the_tips_of_the_model() {
     for (x, top) in [(1.0, 2.0), (3.0, 3.0), (5.0, 4.0)] {
         assert_eq!([covered(x, top - 0.5), covered(x, top + 0.15)], [1.0, 0.0], "the tip at {x}");
     }
-    assert_eq!([covered(2.0, 0.85), covered(2.0, 1.15)], [1.0, 0.0], "between two tips");
+    assert_eq!([covered(1.95, 0.85), covered(1.95, 1.25)], [1.0, 0.0], "between two tips");
 }
 
 #[test]

@@ -83,3 +83,30 @@ impl Geometry for Corners<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{NormalMap, Surface, Texture, Value};
+    use glam::{Vec2, Vec4};
+
+    #[test]
+    fn tangents_of_the_vertices_come_before_those_of_mikktspace() {
+        let mut scene = Scene::default();
+        let texture = scene.textures.add("flat", Texture::Constant(Vec3::ONE));
+        let map = NormalMap { texture, green_down: false, strength: 1.0, tangents: Tangents::MikkTSpace };
+        let mut material = Material::new(Surface::Diffuse { color: Value::Constant(Vec3::ONE) }, None);
+        material.detail.normal_map = Some(map);
+        let material = scene.materials.add("bumpy", material);
+        let mut mesh = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            normals: vec![Vec3::Z; 3],
+            uvs: vec![Vec2::ZERO, Vec2::X, Vec2::Y],
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        };
+        assert_eq!(of(&scene, &mesh, [material]).unwrap(), [[(Vec3::X, 1.0); 3]]);
+        mesh.tangents = vec![Vec4::new(0.0, 1.0, 0.0, -1.0); 3];
+        assert_eq!(of(&scene, &mesh, [material]).unwrap(), [[(Vec3::Y, -1.0); 3]]);
+    }
+}

@@ -119,7 +119,7 @@ fn check_version(root: &Json<'_>) -> Result<()> {
         None => return Err(version.mismatch("a version such as \"2.0\"")),
     }
     match asset.get("minVersion")? {
-        Some(least) if !whole(least.string()?).is_some_and(|least| least <= (2, 0)) => {
+        Some(least) if whole(least.string()?).is_none_or(|least| least > (2, 0)) => {
             Err(least.mismatch("at most \"2.0\""))
         }
         _ => Ok(()),

@@ -115,7 +115,7 @@ impl<'a> Json<'a> {
         // Some writers give whole numbers a decimal point.
         let whole = self.value.as_u64().or_else(|| {
             let number = self.value.as_f64()?;
-            (number >= 0.0 && number < 9e15 && number.fract() == 0.0).then_some(number as u64)
+            ((0.0..9e15).contains(&number) && number.fract() == 0.0).then_some(number as u64)
         });
         let fits = whole.and_then(|number| usize::try_from(number).ok());
         fits.ok_or_else(|| self.mismatch("a whole number that is not negative"))

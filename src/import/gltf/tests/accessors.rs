@@ -26,7 +26,7 @@ fn every_component_type_is_read_as_it_is_and_normalised() {
         words.iter().flat_map(|word| word.to_le_bytes()[..size].to_vec()).collect()
     };
     // Type, bytes of a number, numbers, what they become when normalised
-    let cases: [(u32, usize, [i32; 3], Option<[f32; 3]>); 5] = [
+    let cases = [
         (5120, 1, [-128, -127, 127], Some([-1.0, -1.0, 1.0])),
         (5121, 1, [0, 51, 255], Some([0.0, 0.2, 1.0])),
         (5122, 2, [-32768, 0, 32767], Some([-1.0, 0.0, 1.0])),
