@@ -9,6 +9,7 @@ mod bench;
 mod checks;
 mod diff;
 mod errors;
+mod models;
 mod pictures;
 mod stopping;
 

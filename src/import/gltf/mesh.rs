@@ -83,6 +83,9 @@ impl<'a> Reader<'a> {
                 self.warn(&primitive.json, "points, lines and primitives without positions are left out");
                 continue;
             }
+            if primitive.attribute("COLOR_0").is_some() {
+                self.note("colours of vertices (COLOR_0) are left out");
+            }
             let material = self.material_of(primitive)?;
             let has = OPTIONAL.map(|name| primitive.attribute(name).is_some());
             let at = groups.iter().position(|group| group.has == has).unwrap_or_else(|| {

@@ -52,7 +52,12 @@ impl<'a> Reader<'a> {
 
     /// Notes something that is seen in another way than the file means it, once.
     pub fn warn(&mut self, at: &Json<'_>, message: &str) {
-        self.warnings.insert(format!("{}: {message}", at.pointer()));
+        self.note(&format!("{}: {message}", at.pointer()));
+    }
+
+    /// The same about the model as a whole.
+    pub fn note(&mut self, message: &str) {
+        self.warnings.insert(message.to_owned());
     }
 
     /// A number of a key from 0 to `most`; what is outside is moved to the nearer end, with a warning.

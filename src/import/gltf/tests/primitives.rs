@@ -105,6 +105,14 @@ fn quantized_attributes_are_numbers_of_their_own() {
 }
 
 #[test]
+fn colours_of_vertices_are_left_out_with_one_warning() {
+    let mut maker = Maker::triangle();
+    let colors = maker.floats(&[[1.0, 0.0, 0.0]; 3]);
+    maker.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
+    assert_eq!(maker.read().unwrap().1.warnings, ["colours of vertices (COLOR_0) are left out"]);
+}
+
+#[test]
 fn tangents_of_the_file_are_kept() {
     let mut maker = Maker::triangle();
     let normals = maker.floats(&[[0.0, 0.0, 1.0]; 3]);
