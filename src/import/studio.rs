@@ -4,7 +4,7 @@ use crate::scene::{
     Channel, ColorSpace, Environment, Image, ImageTexture, Scene, TexelFilter, Texels, Texture, UvTransform,
     Value, Wrap,
 };
-use glam::{Mat3, Vec3};
+use glam::{Vec3};
 use std::f32::consts::{PI, TAU};
 
 /// A round, soft lamp at infinity.
@@ -51,7 +51,7 @@ pub(super) fn add(scene: &mut Scene) -> Environment {
         invert: false,
     });
     let radiance = Value::Texture(scene.textures.add("studio", texture));
-    Environment { radiance, scale: 1.0, world_from_environment: Mat3::IDENTITY }
+    Environment::new(radiance)
 }
 
 /// Middle of a texel, as [`Environment`] sees it.

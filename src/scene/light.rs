@@ -2,7 +2,7 @@
 
 use super::camera::half_height;
 use super::{FovAxis, Handle, Texture, Value};
-use glam::{Mat3, Vec2, Vec3};
+use glam::{Affine3A, Mat3, Vec2, Vec3};
 
 /// How a direction becomes a place in a picture. y is up in the space of the light.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -93,6 +93,22 @@ impl Light {
     /// Parallel light of an irradiance in W/m², which travels along a unit vector.
     pub fn distant(direction: Vec3, irradiance: Vec3) -> Self {
         Self::new(LightKind::Distant, Value::Constant(irradiance)).along(direction)
+    }
+
+    /// The same light in a space that is mapped to the world: its place and directions are, its strength is not.
+    #[must_use]
+    pub fn moved(mut self, map: &Affine3A) -> Self {
+        match &mut self.kind {
+            LightKind::Point { position, .. }
+            | LightKind::Spot { position, .. }
+            | LightKind::Projection { position, .. } => *position = map.transform_point3(*position),
+            LightKind::Distant => {}
+        }
+        let [direction, up] = [-self.world_from_light.z_axis, self.world_from_light.y_axis]
+            .map(|axis| map.transform_vector3(axis).try_normalize().unwrap_or(axis));
+        let frame = facing(direction, up);
+        self.world_from_light = frame.unwrap_or(self.world_from_light);
+        self
     }
 
     /// The same light along a unit vector, with +y up, or −z where the direction is along y.

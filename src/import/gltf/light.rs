@@ -4,7 +4,7 @@
 use super::document::{Document, index_into};
 use super::json::Json;
 use crate::Result;
-use crate::scene::Light;
+use crate::scene::{Light, LightKind, Value};
 use glam::{DAffine3, Vec3};
 use std::f32::consts::FRAC_PI_4;
 
@@ -33,8 +33,8 @@ fn read(json: &Json<'_>, world: &DAffine3) -> Result<Light> {
     let position = world.translation.as_vec3();
     let kind = json.need("type")?;
     Ok(match kind.string()? {
-        "directional" => Light::Distant { direction, irradiance: power },
-        "point" => Light::Point { position, intensity: power },
+        "directional" => Light::distant(direction, power),
+        "point" => Light::point(position, power),
         "spot" => {
             let spot = json.need("spot")?;
             let outer = spot.number_or("outerConeAngle", FRAC_PI_4)?;
@@ -45,13 +45,9 @@ fn read(json: &Json<'_>, world: &DAffine3) -> Result<Light> {
                 )));
             }
             let (cone_angle, falloff_angle) = (outer.to_degrees(), (outer - inner).to_degrees());
-            Light::Spot {
-                position,
-                direction,
-                intensity: power,
-                cone_angle,
-                falloff_angle: falloff_angle.min(cone_angle),
-            }
+            let falloff_angle = falloff_angle.min(cone_angle);
+            let kind = LightKind::Spot { position, cone_angle, falloff_angle };
+            Light::new(kind, Value::Constant(power)).along(direction)
         }
         _ => return Err(kind.error("a light is \"directional\", \"point\" or \"spot\"")),
     })

@@ -75,7 +75,7 @@ impl Reader<'_> {
         });
         let own: Vec<Instance> = own.collect();
         self.models.cameras.extend(model.cameras.iter().map(|camera| moved_camera(camera, &map)));
-        self.models.lights.extend(model.lights.iter().map(|light| moved_light(light, &map)));
+        self.models.lights.extend(model.lights.iter().map(|light| light.clone().moved(&map)));
         self.models.instances.extend(own.iter().cloned());
         self.scene.instances.extend(own);
         Ok(())
@@ -150,19 +150,4 @@ fn moved_camera(camera: &ModelCamera, map: &Affine3A) -> ModelCamera {
         ..camera.camera.clone()
     };
     ModelCamera { camera: moved, ..camera.clone() }
-}
-
-fn moved_light(light: &Light, map: &Affine3A) -> Light {
-    let mut light = light.clone();
-    match &mut light {
-        Light::Point { position, .. } => *position = map.transform_point3(*position),
-        Light::Spot { position, direction, .. } => {
-            *position = map.transform_point3(*position);
-            *direction = map.transform_vector3(*direction).normalize_or(*direction);
-        }
-        Light::Distant { direction, .. } => {
-            *direction = map.transform_vector3(*direction).normalize_or(*direction);
-        }
-    }
-    light
 }

@@ -31,7 +31,7 @@ fn what_shines_in_the_scene_file_takes_the_place_of_the_lights_of_the_model() {
     assert_eq!(scene(MODEL).lights.len(), 1);
     let lamp = "light = [{ kind = 'point', position = [0, 9, 0], intensity = 5 }]\n";
     let point = scene(&format!("{lamp}{MODEL}"));
-    assert!(matches!(point.lights[..], [Light::Point { .. }]), "{:?}", point.lights);
+    assert!(matches!(point.lights[..], [Light { kind: LightKind::Point { .. }, .. }]), "{:?}", point.lights);
     let sky = scene(&format!("environment.color = 2\n{MODEL}"));
     assert!(sky.lights.is_empty() && sky.environment.is_some());
     let glow = format!("material.glow = {{ kind = 'diffuse', emission = 3 }}\n{MODEL}");
