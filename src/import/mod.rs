@@ -1,23 +1,29 @@
 //! Files → [`crate::scene::Scene`].
 
+mod affine;
+mod assets;
 mod exr;
 mod file;
 mod image;
 mod lens;
 mod mesh;
 mod obj;
+mod pbrt;
 mod ply;
 mod ply_header;
+mod text;
 mod toml;
 mod volume;
+mod warning;
 
-pub use self::toml::{Assets, Warning, read_scene_with};
+pub use assets::Assets;
 pub use image::read_image;
 pub use lens::{Spacing, read_lens};
 pub use mesh::read_mesh;
 pub use obj::read_obj;
 pub use ply::read_ply;
 pub use volume::read_volume;
+pub use warning::Warning;
 
 use crate::Result;
 use crate::scene::{Image, LensSystem, Mesh, Scene};
@@ -40,10 +46,29 @@ impl Assets for Files {
     }
 }
 
-/// Reads a scene file and everything that it names. `overrides` are key and value as in `--set key=value`.
+/// Reads a scene file and everything that it names: a scene of pbrt-v4 when its name ends in `.pbrt`, else TOML. `overrides` are key
+/// and value as in `--set key=value`.
 ///
 /// # Errors
-/// The first thing that is wrong, with file, line and column. See `scenes/README.md` for the language.
+/// The first thing that is wrong, with file, line and column. `scenes/README.md` describes the language, and `scenes/pbrt.md` what
+/// is read of that of pbrt.
 pub fn read_scene(path: &Path, overrides: &[(String, String)]) -> Result<(Scene, Vec<Warning>)> {
     read_scene_with(path, overrides, &mut Files)
+}
+
+/// The same, with files that come from elsewhere.
+///
+/// # Errors
+/// As [`read_scene`].
+pub fn read_scene_with(
+    path: &Path,
+    overrides: &[(String, String)],
+    assets: &mut dyn Assets,
+) -> Result<(Scene, Vec<Warning>)> {
+    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pbrt")) {
+        return toml::read_scene_with(path, overrides, assets);
+    }
+    let (mut scene, warnings) = pbrt::read_pbrt(path, assets)?;
+    toml::change_settings(&mut scene, path, overrides, assets)?;
+    Ok((scene, warnings))
 }

@@ -7,7 +7,7 @@ use super::text::{Limits, shown};
 use super::view::{Item, View};
 use crate::Result;
 use crate::scene::{
-    Exposure, Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Meter, Rect, Render, Sampler, ToneCurve,
+    Exposure, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Meter, Rect, Render, Sampler, ToneCurve,
 };
 
 const MAX_STRATA: u32 = 4096;
@@ -39,7 +39,7 @@ fn exposure(item: Item<'_>) -> Result<Exposure> {
 impl Reader<'_> {
     pub fn film(&mut self, node: &Node) -> Result<()> {
         let view = View::new(self.sources, node, "[film]".into(), FILM)?;
-        let mut film = Film::default();
+        let mut film = self.scene.film.clone();
         if let Some(size) = view.get("size") {
             [film.width, film.height] = size.whole_numbers(1, MAX_SIDE)?;
         }
@@ -62,6 +62,7 @@ impl Reader<'_> {
         ];
         let kind = view.choice_or("filter", film.filter.kind, &kinds)?;
         let radius = match kind {
+            _ if view.get("filter").is_none() => film.filter.radius,
             FilterKind::Box => 0.5,
             FilterKind::Tent => 1.0,
             FilterKind::Gaussian | FilterKind::BlackmanHarris => 1.5,
@@ -83,7 +84,7 @@ impl Reader<'_> {
 
     pub fn render(&mut self, node: &Node) -> Result<()> {
         let view = View::new(self.sources, node, "[render]".into(), RENDER)?;
-        let default = Render::default();
+        let default = self.scene.render.clone();
         let samplers = [
             ("sobol", Sampler::Sobol),
             ("stratified", Sampler::Stratified),

@@ -31,23 +31,9 @@ pub(super) fn read(
     assets: &mut dyn Assets,
     document: &Table,
 ) -> Result<(Scene, Vec<Warning>)> {
-    let mut reader = Reader {
-        sources,
-        assets,
-        scene: Scene::default(),
-        textures: Names::new(["texture", "textures"]),
-        materials: Names::new(["material", "materials"]),
-        meshes: Names::new(["mesh", "meshes"]),
-        images: BTreeMap::new(),
-        warnings: Vec::new(),
-    };
+    let mut reader = Reader::new(sources, assets, Scene::default());
     // What is quick to check comes before the files that may be large.
-    if let Some(entry) = document.get("film") {
-        reader.film(&entry.node)?;
-    }
-    if let Some(entry) = document.get("render") {
-        reader.render(&entry.node)?;
-    }
+    reader.settings(document)?;
     if let Some(entry) = document.get("camera") {
         reader.camera(&entry.node)?;
     }
@@ -71,7 +57,32 @@ pub(super) fn read(
     Ok(reader.finish())
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    /// A reader that adds to a scene.
+    pub fn new(sources: &'a Sources, assets: &'a mut dyn Assets, scene: Scene) -> Self {
+        Self {
+            sources,
+            assets,
+            scene,
+            textures: Names::new(["texture", "textures"]),
+            materials: Names::new(["material", "materials"]),
+            meshes: Names::new(["mesh", "meshes"]),
+            images: BTreeMap::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// `[film]` and `[render]`.
+    pub fn settings(&mut self, document: &Table) -> Result<()> {
+        if let Some(entry) = document.get("film") {
+            self.film(&entry.node)?;
+        }
+        match document.get("render") {
+            Some(entry) => self.render(&entry.node),
+            None => Ok(()),
+        }
+    }
+
     pub fn warn(&mut self, spot: Spot, message: String) {
         self.warnings.push((spot, message));
     }
