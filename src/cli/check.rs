@@ -3,6 +3,7 @@
 use super::args::CheckArgs;
 use super::console::Console;
 use super::devices::bytes_text;
+use super::job::strictly;
 use dapple::Result;
 use dapple::import::{Warning, read_scene};
 use dapple::layout::Backend;
@@ -43,6 +44,7 @@ struct Contents {
 /// Reads, prepares, prints.
 pub fn run(args: &CheckArgs, console: &mut Console) -> Result<()> {
     let (scene, warnings) = read_scene(&args.scene, &args.set)?;
+    strictly(args.strict, &warnings)?;
     if !args.json {
         warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
     }
