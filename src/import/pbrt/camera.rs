@@ -79,7 +79,7 @@ impl Reader<'_> {
         }
         let kind = setting.map_or("perspective", |setting| setting.kind.as_str());
         if let (Some(setting), false) = (setting, axes.rigid) {
-            self.unsupported(Unsupported::Motion, &setting.from.spot);
+            self.unsupported(Unsupported::Sheared, &setting.from.spot);
         }
         let projection = match setting {
             None => {

@@ -63,11 +63,11 @@ impl Reader<'_> {
         let material = self.surface(&kind, &from)?;
         from.finish()?;
         let handle = self.named_material(&name, spot);
-        if let Some(Named { made, .. }) = self.wardrobe.named.get_mut(&name) {
-            if std::mem::replace(made, true) {
-                let message = format!("there is a material \"{}\" already", shown(&name));
-                return Err(spot.error(message).help("choose another name"));
-            }
+        if let Some(Named { made, .. }) = self.wardrobe.named.get_mut(&name)
+            && std::mem::replace(made, true)
+        {
+            let message = format!("there is a material \"{}\" already", shown(&name));
+            return Err(spot.error(message).help("choose another name"));
         }
         self.scene.materials[handle] = material;
         if kind == "interface" {

@@ -1,5 +1,6 @@
 //! Triangle meshes, from the scene and from files.
 
+use super::object::Geometry;
 use super::parameter::{Parameter, Type};
 use super::parameters::Parameters;
 use super::place::Spot;
@@ -10,10 +11,11 @@ use crate::Result;
 use crate::import::text::Limits;
 use crate::scene::{Displacement, DisplacementDirection, EdgeLimit, Mesh, MeshPart, Value};
 use glam::{Vec2, Vec3};
+use std::path::PathBuf;
 
 /// Most triangles of a displaced mesh: about a gigabyte with all that belongs to them.
 const MOST_DISPLACED: u32 = 4_000_000;
-/// Most triangles that are made of shapes which are no meshes.
+/// Most triangles that are made of shapes which are no meshes, or of a file that has been read before.
 const MOST_MADE: usize = 1 << 24;
 
 impl Reader<'_> {
@@ -35,18 +37,32 @@ impl Reader<'_> {
             return Err(spot.error("compressed meshes are not read").help("run gunzip on it first"));
         }
         self.need_file(&spot, &path)?;
-        let read = match self.meshes.get(&path) {
-            Some(mesh) => mesh.clone(),
-            None => {
-                let mesh = self.assets.mesh(&path).map_err(|error| spot.locate(error))?;
-                let mesh = std::rc::Rc::new(mesh);
-                self.meshes.insert(path, mesh.clone());
-                mesh
-            }
+        let key = (path, self.state.reverse);
+        let known = self.meshes.get(&key).copied();
+        if displacement.is_none() && !self.powered() {
+            let handle = match known {
+                Some(handle) => handle,
+                None => {
+                    let mesh = self.ply(&spot, &key)?;
+                    let handle = self.scene.meshes.add(key.0.display().to_string(), mesh);
+                    self.meshes.insert(key, handle);
+                    handle
+                }
+            };
+            return self.add_shape("plymesh", Geometry::Mesh(handle), 1.0, looks);
+        }
+        let mesh = match known {
+            Some(handle) => self.scene.meshes[handle].clone(),
+            None => self.ply(&spot, &key)?,
         };
-        self.made(read.triangles.len(), &looks.spot)?;
-        let mesh = oriented(Mesh::clone(&read), self.state.reverse);
+        self.made(mesh.triangles.len(), &looks.spot)?;
         self.add_mesh("plymesh", Mesh { displacement, ..mesh }, looks)
+    }
+
+    /// The mesh of a file, turned inside out or not.
+    fn ply(&mut self, spot: &Spot, (path, reverse): &(PathBuf, bool)) -> Result<Mesh> {
+        let mesh = self.assets.mesh(path).map_err(|error| spot.locate(error))?;
+        Ok(oriented(mesh, *reverse))
     }
 
     /// Edges are measured in the world and heights in the space of the mesh.
@@ -85,7 +101,7 @@ impl Reader<'_> {
         if self.made <= MOST_MADE {
             return Ok(());
         }
-        let message = format!("shapes and files make more than {MOST_MADE} triangles");
+        let message = format!("shapes that are no meshes make more than {MOST_MADE} triangles");
         Err(spot.error(message).help("describe what is there many times as an object"))
     }
 }

@@ -40,9 +40,9 @@ pub(super) struct Reader<'a> {
     pub textures: Textures,
     pub wardrobe: Wardrobe,
     pub objects: Objects,
-    /// Pictures that are loaded already, and whether they have holes; meshes.
+    /// Pictures that are loaded already, and whether they have holes; meshes, and whether they are turned inside out.
     pub images: HashMap<PathBuf, (Handle<Image>, bool)>,
-    pub meshes: HashMap<PathBuf, Rc<Mesh>>,
+    pub meshes: HashMap<(PathBuf, bool), Handle<Mesh>>,
     pub missing: Missing,
     /// Triangles that cost little text.
     pub made: usize,

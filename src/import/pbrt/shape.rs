@@ -76,8 +76,7 @@ impl Reader<'_> {
         if mesh.triangles.is_empty() {
             return Err(looks.spot.error(format!("the {kind} has no triangles")).help("add some"));
         }
-        let powered = self.state.area_light.as_ref().is_some_and(|light| light.power.is_some());
-        if powered && self.objects.open.is_none() {
+        if self.powered() {
             mesh.parts = self.powered_parts(&mesh, looks);
         }
         let first = mesh.parts.first().and_then(|part| part.material);
@@ -91,6 +90,12 @@ impl Reader<'_> {
         let name = format!("{kind} of {}", looks.spot.place());
         let handle = self.scene.meshes.add(name, mesh);
         self.add(kind, Geometry::Mesh(handle), material, &looks.spot)
+    }
+
+    /// Whether shapes are lamps of a power.
+    pub(super) fn powered(&self) -> bool {
+        let power = self.state.area_light.as_ref().and_then(|light| light.power);
+        power.is_some() && self.objects.open.is_none()
     }
 
     fn add(

@@ -30,7 +30,7 @@ pub(super) struct Textures {
     spots: Vec<(Handle<Texture>, Spot)>,
 }
 
-const CLASSES: [&str; 14] = [
+const CLASSES: [&str; 13] = [
     "constant",
     "scale",
     "mix",
@@ -44,7 +44,6 @@ const CLASSES: [&str; 14] = [
     "windy",
     "marble",
     "ptex",
-    "uv",
 ];
 
 impl Reader<'_> {
@@ -101,7 +100,7 @@ impl Reader<'_> {
                 let message = format!("{} is for {other} textures alone", from.what);
                 return Err(from.error(message).help(format!("change its type to \"{other}\"")));
             }
-            _ => return Err(self.unknown("Texture", class, from, &CLASSES[..CLASSES.len() - 1])),
+            _ => return Err(self.unknown("Texture", class, from, &CLASSES)),
         })
     }
 

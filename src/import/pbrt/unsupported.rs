@@ -36,7 +36,7 @@ unsupported! {
     Medium: "MediumInterface", "there is no medium";
     NamedMedium: "MakeNamedMedium", "there is no medium";
     CameraMedium: "MediumInterface of the camera", "there is no medium";
-    Motion: "a camera that is stretched or sheared", "its axes are taken without their lengths and at right angles";
+    Sheared: "a camera that is stretched or sheared", "its axes are taken without their lengths and at right angles";
     Frame: "frameaspectratio", "pixels are square";
     Window: "screenwindow that is not in the middle or has another shape than the film", "it is as high as said, in the middle";
     OrthographicLens: "lensradius of an orthographic camera", "all is sharp";
