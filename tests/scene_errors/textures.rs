@@ -7,7 +7,7 @@ fn textures() {
     check(&[
         (
             "[texture.t]\nfile = 'a.png'",
-            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"stack\", \"glsl\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"",
+            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"stack\", \"glsl\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"direction_mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"",
         ),
         (
             "[texture.t]\nkind = 'imag'",

@@ -153,7 +153,7 @@ impl Reader<'_> {
 
     /// A direction in the world, of unit length. Normals of planes of light turn with the inverse, as in pbrt, which is the same
     /// for turns and even scales.
-    fn direction(&self, from: &Parameters, along: Vec3, zero: &str) -> Result<Vec3> {
+    pub(super) fn direction(&self, from: &Parameters, along: Vec3, zero: &str) -> Result<Vec3> {
         let turn: DMat3 = self.state.maps[0].matrix3;
         let direction = (turn * along.as_dvec3()).try_normalize();
         direction

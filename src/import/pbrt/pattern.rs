@@ -4,13 +4,14 @@ use super::mapping::Placement;
 use super::parameters::Parameters;
 use super::reader::Reader;
 use super::texture::Number;
-use super::unsupported::Unsupported;
 use crate::Result;
-use crate::scene::{Dots, Gradient, PatternSpace, Texture, UvTransform, Value};
-use glam::{Affine3A, Vec3};
+use crate::scene::{Dots, Gradient, PatternSpace, Texture, Value};
+use glam::{Affine3A, Mat3, Mat3A, Vec3, Vec3A};
 
 /// Radius of pbrt's dots.
 const DOT_RADIUS: f32 = 0.35;
+/// Coordinates up to which a bilerp goes on; a power of two, so that gradients are exact.
+const FAR: f32 = 256.0;
 
 const ZERO: Value<Vec3> = Value::Constant(Vec3::ZERO);
 const ONE: Value<Vec3> = Value::Constant(Vec3::ONE);
@@ -60,24 +61,28 @@ impl Reader<'_> {
         let [v00, v01] = [corner("v00", 0.0)?, corner("v01", 1.0)?];
         let [v10, v11] = [corner("v10", 0.0)?, corner("v11", 1.0)?];
         let placement = self.placement(from)?;
-        if placement.mapping.is_some() || placement.uv != UvTransform::default() {
-            self.unsupported(Unsupported::Bilerp, &from.spot);
-        }
         let [s, t] = self.ramps(&placement);
-        let bottom = Texture::Mix { a: v00, b: v10, amount: s };
-        let top = Texture::Mix { a: v01, b: v11, amount: s };
-        let [a, b] = [bottom, top].map(|side| Value::Texture(self.part(side)));
-        Ok(Texture::Mix { a, b, amount: t })
+        let [a, b] = [[v00, v10], [v01, v11]].map(|[from, to]| {
+            let side = self.sum(from, to, s);
+            Value::Texture(self.part(side))
+        });
+        Ok(self.sum(a, b, t))
     }
 
-    /// s and t of a placement.
-    fn ramps(&mut self, placement: &Placement) -> [Value<f32>; 2] {
+    /// s and t of a placement, as far as [`FAR`].
+    fn ramps(&mut self, placement: &Placement) -> [Value<Vec3>; 2] {
         let space = self.flat(placement);
-        let turned = Affine3A::from_mat3(glam::Mat3::from_cols(Vec3::Y, Vec3::X, Vec3::Z));
-        let across = PatternSpace { pattern_from_space: turned * space.pattern_from_space, ..space };
-        [space, across].map(|space| {
-            let ramp = Texture::Gradient { shape: Gradient::Linear, low: ZERO, high: ONE, space };
-            let ramp = self.placed(placement, ramp);
+        let turned = Affine3A::from_mat3(Mat3::from_cols(Vec3::Y, Vec3::X, Vec3::Z));
+        // From −FAR to FAR over a gradient's 0 to 1
+        let far = Affine3A {
+            matrix3: Mat3A::from_diagonal(Vec3::splat(0.5 / FAR)),
+            translation: Vec3A::splat(0.5),
+        };
+        let [low, high] = [-FAR, FAR].map(|end| Value::Constant(Vec3::splat(end)));
+        [far, far * turned].map(|map| {
+            let space = PatternSpace { pattern_from_space: map * space.pattern_from_space, ..space };
+            let ramp =
+                self.placed(placement, Texture::Gradient { shape: Gradient::Linear, low, high, space });
             Value::Texture(self.part(ramp))
         })
     }

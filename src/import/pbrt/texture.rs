@@ -80,9 +80,9 @@ impl Reader<'_> {
             }
             "directionmix" => {
                 let (a, b) = (self.input(from, "tex1", number, 0.0)?, self.input(from, "tex2", number, 1.0)?);
-                from.vector_or("dir", Vec3::Y)?;
-                self.unsupported(Unsupported::DirectionMix, &from.spot);
-                Texture::Mix { a, b, amount: Value::Constant(0.5) }
+                let direction =
+                    self.direction(from, from.vector_or("dir", Vec3::Y)?, "dir is the zero vector")?;
+                Texture::DirectionMix { a, b, direction }
             }
             "bilerp" => self.bilerp(from, number)?,
             "imagemap" => self.image_map(from, number)?,
@@ -217,7 +217,8 @@ impl Reader<'_> {
         }
     }
 
-    fn sum(&mut self, a: Value<Vec3>, b: Value<Vec3>, amount: Value<Vec3>) -> Texture {
+    /// The same, without the end at 0 and 1 that a mix has.
+    pub(super) fn sum(&mut self, a: Value<Vec3>, b: Value<Vec3>, amount: Value<Vec3>) -> Texture {
         let rest = Value::Texture(self.part(Texture::Invert { value: amount }));
         let a = Value::Texture(self.part(Texture::Multiply { a, b: rest }));
         let b = Value::Texture(self.part(Texture::Multiply { a: b, b: amount }));

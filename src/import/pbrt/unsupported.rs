@@ -67,8 +67,6 @@ unsupported! {
     Octahedral: "wrap \"octahedralsphere\"", "\"repeat\"";
     Encoding: "encoding \"gamma …\"", "\"sRGB\"";
     Ptex: "Texture \"ptex\"", "a constant of 0.5";
-    Bilerp: "Texture \"bilerp\" beyond uv of 0 to 1", "the values at the edge";
-    DirectionMix: "Texture \"directionmix\"", "a mix of half and half";
     CoatedDiffuse: "Material \"coateddiffuse\"", "a \"principled\" material without light between the layers";
     CoatedConductor: "Material \"coatedconductor\"", "its conductor alone";
     DiffuseTransmission: "Material \"diffusetransmission\"", "its reflection alone";

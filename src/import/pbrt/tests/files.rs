@@ -64,6 +64,23 @@ fn spectra_come_from_names_lists_and_files() {
 }
 
 #[test]
+fn settings_change_film_and_render_alone() {
+    let set = |key: &str, value: &str| {
+        let texts =
+            [("scene.pbrt".to_owned(), "Film \"rgb\" \"integer xresolution\" 8 WorldBegin".to_owned())];
+        let pair = [(key.to_owned(), value.to_owned())];
+        let mut files = super::Memory { texts: texts.into() };
+        crate::import::read_scene_with(std::path::Path::new("scene.pbrt"), &pair, &mut files)
+    };
+    let (scene, _) = set("render.spp", "3").unwrap();
+    assert_eq!((scene.render.spp, scene.render.max_depth, scene.film.width), (3, 5, 8));
+    let (scene, _) = set("film.tone_curve", "aces").unwrap();
+    assert_eq!((scene.film.width, scene.film.filter.radius), (8, 1.5));
+    let error = set("camera.fov", "3").unwrap_err().to_string();
+    assert!(error.contains("[camera] of this scene cannot be set"), "{error}");
+}
+
+#[test]
 fn pictures_that_are_not_there_are_reported_where_they_are_named() {
     let text = "WorldBegin\nTexture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"missing.png\"";
     let error = read(text).unwrap_err().to_string();
