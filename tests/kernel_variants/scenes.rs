@@ -264,10 +264,9 @@ fn trees() -> Scene {
         let value = Value::Texture(scene.textures.add("cells", cells));
         let stops = vec![(0.0, Vec3::ZERO), (1.0, Vec3::ONE)];
         let sum = scene.textures.add("ramp", Texture::Ramp { value, stops, smooth: true });
-        let mixed = Texture::Mix { a, b: inverted, amount: Value::Texture(sum) };
-        let a = Value::Texture(scene.textures.add("mixed", mixed));
         let faced = Texture::DirectionMix { a, b: noise, direction: Vec3::Y };
-        last = scene.textures.add("faced", faced);
+        let b = Value::Texture(scene.textures.add("faced", faced));
+        last = scene.textures.add("mixed", Texture::Mix { a, b, amount: Value::Texture(sum) });
     }
     let placed = placed(&mut scene);
     let shade = Surface::Diffuse { color: Value::Texture(last) };
