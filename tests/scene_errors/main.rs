@@ -4,6 +4,7 @@ mod details;
 mod files;
 mod materials;
 mod objects;
+mod pbrt;
 mod textures;
 
 use dapple::import::{Assets, Spacing, read_lens, read_scene_with};
