@@ -10,6 +10,7 @@
 //! | [`gpu`] | a Vulkan device: all `unsafe` code is there |
 //! | [`render`] | [`prepare::Prepared`] on a device → [`film::Film`], exact sums of samples |
 //! | [`film`] | [`film::Film`] → [`film::Picture`] → PNG or EXR |
+//! | [`diff`] | two pictures → how far they are apart |
 //!
 //! [`layout`] is what host and kernels agree on. The whole way:
 //!
@@ -34,6 +35,7 @@
 //! # }
 //! ```
 
+pub mod diff;
 mod error;
 pub mod film;
 pub mod gpu;

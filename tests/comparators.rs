@@ -4,10 +4,9 @@
 mod common;
 
 use common::chi2;
-use common::compare::{Verdict, compare, relative_mse};
 use common::random::Random;
-use common::references::{Estimate, all, folder, present, rendered};
-use common::student::{critical_value, level_of_each, two_sided_tail};
+use common::references::{all, folder, present, rendered};
+use dapple::diff::{Estimate, Verdict, compare, critical_value, level_of_each, relative_mse, two_sided_tail};
 use dapple::film::{Film, Frame, write};
 use dapple::scene::{self, Rect};
 

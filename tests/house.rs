@@ -23,6 +23,7 @@ const RUST_ROOMS: &[(&str, &[&str])] = &[
     ("shader", &[]),
     ("gpu", &["layout", "shader"]),
     ("film", &["scene", "layout"]),
+    ("diff", &["film", "import", "scene"]),
     ("render", &["prepare", "shader", "gpu", "film", "layout", "scene"]),
     // The program: its own modules, and the public items of the library as `dapple::`.
     ("main", &["cli"]),

@@ -2,8 +2,8 @@
 //! Mitsuba 3.
 //!
 //! Every test renders `tests/scenes/reference/NAME.toml` on the default device, writes
-//! `target/reference/NAME.exr`, and `NAME.png` with the picture on the left and the reference on the right, and
-//! puts both to the test of `common/compare.rs`. The noise of the picture is what its film says.
+//! `target/reference/NAME.exr`, and `NAME.png` with the reference, the picture and their difference, and puts both to the
+//! test of `dapple::diff`. The noise of the picture is what its film says.
 //!
 //! The scenes of pbrt are read a second time as they are, by dapple's reader of pbrt-v4, and put to the same test.
 //!
@@ -12,15 +12,14 @@
 //! | reference | what it needs |
 //! |---|---|
 //! | `c_uv_quadrics` | a partial sphere |
-//! | `n_infinite_image` | an equal-area environment |
 //! | `q_meshes` | loop subdivision, bilinear patches |
 //! | `m_principled` | Disney's principled BSDF, where dapple has that of glTF |
 
 #![allow(clippy::unwrap_used, clippy::panic)] // Helpers of tests are tests too.
 mod common;
 
-use common::compare::compare;
-use common::references::{Estimate, Reference, folder, reference, rendered};
+use common::references::{Reference, folder, reference, rendered};
+use dapple::diff::{compare, flip, write_panel};
 use dapple::film::write;
 use dapple::gpu::{DeviceChoice, Gpu};
 use dapple::import::read_scene;
@@ -90,27 +89,11 @@ fn compare_with(expected: &Reference, scene: &Scene, name: &str) {
     let file = out.join(name).with_extension("exr");
     write(&file, &film.resolve(), &scene.film, &film.meta()).unwrap();
     let picture = rendered(&file).unwrap();
-    write_beside(&out.join(name).with_extension("png"), &picture, &expected.picture);
+    let errors = flip(&expected.picture, &picture);
+    write_panel(&out.join(name).with_extension("png"), &expected.picture, &picture, &errors).unwrap();
     let verdict = compare(&expected.picture, &picture, expected.systematic);
     println!("{name:20} {seconds:5.1} s  {verdict}");
     assert!(verdict.accepted(), "{name}: {verdict}");
-}
-
-/// Two pictures side by side as a PNG in sRGB, for people to look at.
-fn write_beside(path: &Path, left: &Estimate, right: &Estimate) {
-    let byte = |v: f64| {
-        let v = v.clamp(0.0, 1.0);
-        let v = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
-        (255.0 * v).round() as u8
-    };
-    let mut bytes = Vec::new();
-    for y in 0..left.height.min(right.height) {
-        for side in [left, right] {
-            bytes.extend(side.mean[y * side.width..][..side.width].iter().flatten().map(|&v| byte(v)));
-        }
-    }
-    let (width, height) = (left.width + right.width, left.height.min(right.height));
-    image::save_buffer(path, &bytes, width as u32, height as u32, image::ColorType::Rgb8).unwrap();
 }
 
 /// A test for each scene.
@@ -127,7 +110,7 @@ macro_rules! scenes {
 
 scenes! {
     pbrt: a_cornell b_wrap d_checker e_noise f_marble_dots g_bump h_normalmap i_alpha j_thinlens k_softshadow l_materials m_instances n_infinite_const
-        o_lens_dgauss o_lens_wide p_equirect p_ortho r_hardlights;
+        n_infinite_image o_lens_dgauss o_lens_wide p_equirect p_ortho r_hardlights;
     mitsuba: m_area_lights m_bitmap_wrap_filter m_bumpmap m_cornell_saturated m_dielectric m_mask m_thinlens m_volume_texture;
 }
 
@@ -146,6 +129,6 @@ mod as_pbrt {
 
     scenes! {
         a_cornell b_wrap c_uv_quadrics d_checker e_noise f_marble_dots g_bump h_normalmap i_alpha j_thinlens k_softshadow l_materials
-        m_instances n_infinite_const o_lens_dgauss o_lens_wide p_equirect p_ortho r_hardlights
+        m_instances n_infinite_const n_infinite_image o_lens_dgauss o_lens_wide p_equirect p_ortho r_hardlights
     }
 }

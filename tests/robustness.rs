@@ -145,7 +145,7 @@ fn the_power_of_the_brightest_lights_is_finite() {
     let sky = vec![[3e38, 3e38, 3e38, 1.0], [1e38, 1e38, 1e38, 1.0]];
     let texture = s.picture(Image { width: 2, height: 1, texels: Texels::RgbaF32(sky) }, |_| {});
     let radiance = Value::Texture(texture);
-    s.environment = Some(Environment { radiance, scale: 1.0, world_from_environment: glam::Mat3::IDENTITY });
+    s.environment = Some(Environment::new(radiance));
     let cells = dapple::prepare::prepare(&s).unwrap().environment;
     let sum: f32 = cells.iter().map(|cell| cell.chance).sum();
     assert!((sum - 1.0).abs() < 1e-5, "{cells:?}");

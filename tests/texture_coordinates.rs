@@ -4,8 +4,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // Helpers of tests are tests too.
 mod common;
 
-use common::compare::compare;
-use common::references::{Estimate, rendered};
+use common::references::rendered;
+use dapple::diff::{Estimate, compare};
 use dapple::film::write;
 use dapple::gpu::{DeviceChoice, Gpu};
 use dapple::import::read_scene;

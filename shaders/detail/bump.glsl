@@ -5,15 +5,32 @@
 #include "texture/context.glsl"
 #include "generated/textures.glsl"
 
-// The surface without bumps; derivatives by u and v.
-struct Base { vec3 normal; vec3 dpdu; vec3 dpdv; vec3 dndu; vec3 dndv; vec3 object_dpdu; vec3 object_dpdv; };
+// The surface without bumps; derivatives by u and v, of the second set where the picture of the height is placed by that (HAS_UV1).
+struct Base {
+    vec3 normal;
+    vec3 dpdu;
+    vec3 dpdv;
+    vec3 dndu;
+    vec3 dndv;
+    vec3 object_dpdu;
+    vec3 object_dpdv;
+#ifdef HAS_UV1
+    mat2 uv_by_step;  // by how much the first set changes
+    mat2 uv1_by_step; // and the second
+#endif
+};
 
 // A height and its derivatives by u and v.
 struct Slope { float height; float du; float dv; };
 
 float bump_height(Detail detail, TextureContext context, Base base, vec2 uv_step)
 {
+#ifdef HAS_UV1
+    context.uv += base.uv_by_step * uv_step;
+    context.uv1 += base.uv1_by_step * uv_step;
+#else
     context.uv += uv_step;
+#endif
     context.position += uv_step.x * base.dpdu + uv_step.y * base.dpdv;
     context.object_position += uv_step.x * base.object_dpdu + uv_step.y * base.object_dpdv;
     return detail.height * mean_component(texture_height(detail.height_texture, context).rgb);
@@ -33,7 +50,11 @@ mat2 bump_steps(Detail detail, TextureContext context, Base base)
 Slope bump_slope(Detail detail, TextureContext context, Base base)
 {
     mat2 steps = bump_steps(detail, context, base);
-    vec2 inside = fract(inverse(steps) * context.uv + detail.steps_at_zero);
+    vec2 uv = context.uv;
+#ifdef HAS_UV1
+    if ((detail.flags & DETAIL_HEIGHT_UV1) != 0u) uv = context.uv1;
+#endif
+    vec2 inside = fract(inverse(steps) * uv + detail.steps_at_zero);
     bool kernel = detail.derivative == DERIVATIVE_KERNEL;
     bool forward = detail.derivative == DERIVATIVE_FORWARD;
     uint count = kernel ? 9u : forward ? 3u : 4u;

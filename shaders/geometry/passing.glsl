@@ -15,10 +15,11 @@ bool opacity_stops(uint key, Surface s, float opacity, vec3 direction)
 }
 
 // Whether a ray ends on a surface that it met: a shadow ray when nothing of its light is left; another when the surface stops
-// it or colours it, which shade.comp does.
+// it or colours it, which shade.comp does. From behind, nothing of a surface is there that has a front alone.
 bool passing_ends(inout Passing passing, Surface s, vec3 direction)
 {
     Detail detail = detail_fetch(s.material);
+    if ((detail.flags & DETAIL_FRONT_ONLY) != 0u && dot(direction, s.geometric) > 0.0) return false;
     TextureContext context = surface_context(s, s.normal);
     float opacity = opacity_at(detail, context);
 #ifdef ANY_HIT

@@ -37,5 +37,11 @@ TextureContext surface_context(Surface s, vec3 normal)
     TextureContext context = context_at(s.position, s.uv, normal);
     context.object_position = s.object_position;
     context.object_normal = s.object_normal;
+#ifdef HAS_VERTEX_COLOR
+    context.vertex_color = s.vertex_color;
+#endif
+#ifdef HAS_UV1
+    context.uv1 = s.uv1;
+#endif
     return context;
 }

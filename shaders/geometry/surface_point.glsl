@@ -1,4 +1,4 @@
-// A point on a surface as shading sees it.
+// A point on a surface as shading sees it. Switches of the variant: HAS_VERTEX_COLOR, HAS_UV1.
 
 struct Surface {
     vec3 position;        // world space
@@ -23,7 +23,19 @@ struct Surface {
     uint light;           // its light, or NONE
     uint instance;
     uint primitive;       // number of the triangle within its mesh, else 0
+#ifdef HAS_VERTEX_COLOR
+    vec4 vertex_color;    // white where there is none
+#endif
+#ifdef HAS_UV1
+    vec2 uv1;             // the second set, or the first where there is none
+    mat2 uv_by_uv1;       // ∂uv/∂u₁ and ∂uv/∂v₁; 0 where they have no direction
+#endif
 };
+
+#ifdef HAS_UV1
+// The derivatives by the second uv of what has these by the first.
+mat2x3 by_uv1(Surface s, vec3 by_u, vec3 by_v) { return mat2x3(by_u, by_v) * s.uv_by_uv1; }
+#endif
 
 // The derivative of a unit normal, from a normal of any length that it is the direction of, and its derivative.
 vec3 unit_derivative(vec3 normal, vec3 derivative)

@@ -38,5 +38,12 @@ Surface quadric_surface(Instance instance, float t, vec3 origin, vec3 direction)
     s.material = instance.material;
     s.light = instance.light;
     s.primitive = 0u;
+#ifdef HAS_VERTEX_COLOR
+    s.vertex_color = vec4(1.0);
+#endif
+#ifdef HAS_UV1
+    s.uv1 = s.uv;
+    s.uv_by_uv1 = mat2(1.0);
+#endif
     return s;
 }

@@ -4,6 +4,7 @@
 #include "geometry/instance.glsl"
 #include "geometry/triangle.glsl"
 #include "geometry/surface_point.glsl"
+#include "texture/corners.glsl"
 
 Vertex vertex_fetch(uint i) { return vertex_unpack(fetch_vertices(i * VERTEX_WORDS), fetch_vertices(i * VERTEX_WORDS + 1u)); }
 
@@ -11,6 +12,25 @@ Triangle triangle_fetch(uint i)
 {
     uint w = i * ITEM_WORDS;
     return triangle_unpack(fetch_tree(w), fetch_tree(w + 1u), fetch_tree(w + 2u));
+}
+
+// What only textures ask, from `extra` of the face, or what it is without. du and dv are the edges of the first uv.
+void corners_surface(inout Surface s, uint extra, vec2 bary, vec2 du, vec2 dv)
+{
+#ifdef HAS_VERTEX_COLOR
+    s.vertex_color = vec4(1.0);
+    if (extra != NONE) s.vertex_color = corner_color(extra, bary);
+#endif
+#ifdef HAS_UV1
+    s.uv1 = s.uv;
+    s.uv_by_uv1 = mat2(1.0);
+    if (extra != NONE) {
+        CornerUvs of = corner_uvs(extra);
+        mat2 edges = mat2(of.b - of.a, of.c - of.a);
+        s.uv1 = corner_uv(of, bary);
+        s.uv_by_uv1 = abs(determinant(edges)) >= 1e-9 ? mat2(du, dv) * inverse(edges) : mat2(0.0);
+    }
+#endif
 }
 
 // A point on a triangle: `to_world` is true when the triangle is in object space.
@@ -39,8 +59,10 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec3 normal_b = vec3(0.0);
     vec3 normal_c = vec3(0.0);
     s.tangent = vec4(0.0);
+    uint extra = NONE;
     if (instance.first_face != NONE) {
         Face face = face_unpack(fetch_faces((instance.first_face + s.primitive) * FACE_WORDS));
+        extra = face.extra;
         Vertex a = vertex_fetch(face.vertices.x);
         Vertex b = vertex_fetch(face.vertices.y);
         Vertex c = vertex_fetch(face.vertices.z);
@@ -62,6 +84,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec2 du = uv1 - uv0;
     vec2 dv = uv2 - uv0;
     s.uv = uv0 + bary.x * du + bary.y * dv;
+    corners_surface(s, extra, bary, du, dv);
     float determinant = du.x * dv.y - du.y * dv.x;
     bool oriented = abs(determinant) >= 1e-9;
     s.dpdu = oriented ? (dv.y * ab - du.y * ac) / determinant : vec3(0.0);

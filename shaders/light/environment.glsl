@@ -1,29 +1,36 @@
-// Radiance from infinity: a constant, or an equirectangular picture sampled in proportion to its brightness.
-// Switches: HAS_ENVIRONMENT, ENVIRONMENT_IMAGE.
+// Radiance from infinity: a constant, or a texture by direction, of which a picture is sampled in proportion to its brightness.
+// Switches: HAS_ENVIRONMENT, ENVIRONMENT_IMAGE, ENVIRONMENT_EQUAL_AREA.
 #include "light/sample.glsl"
+#include "light/direction.glsl"
 
-// World direction to uv: v = 1 at +y; the middle column looks along −z and u grows towards +x there.
-vec2 environment_uv(vec3 direction)
+#ifdef ENVIRONMENT_EQUAL_AREA
+#define ENVIRONMENT_UV(d) equal_area_uv(d)
+#define ENVIRONMENT_DIRECTION(uv) equal_area_direction(uv)
+#define ENVIRONMENT_UV_PDF(uv) INV_FOUR_PI
+#else
+#define ENVIRONMENT_UV(d) equirectangular_uv(d)
+#define ENVIRONMENT_DIRECTION(uv) equirectangular_direction(uv)
+#define ENVIRONMENT_UV_PDF(uv) equirectangular_pdf(uv)
+#endif
+
+// A world direction in the space of the environment.
+vec3 environment_local(vec3 direction)
 {
-    vec3 d = vec3(dot(frame.environment_row0, direction), dot(frame.environment_row1, direction),
-                  dot(frame.environment_row2, direction));
-    float u = 0.5 + atan(d.x, -d.z) * INV_TWO_PI;
-    return vec2(u, latitude_v(d.y, length(d.xz)));
+    return vec3(dot(frame.environment_row0, direction), dot(frame.environment_row1, direction),
+                dot(frame.environment_row2, direction));
 }
 
 vec3 environment_direction(vec2 uv)
 {
-    float phi = (uv.x - 0.5) * 2.0 * PI;
-    float theta = (uv.y - 0.5) * PI;
-    vec3 d = vec3(sin(phi) * cos(theta), sin(theta), -cos(phi) * cos(theta));
+    vec3 d = ENVIRONMENT_DIRECTION(uv);
     return frame.environment_row0 * d.x + frame.environment_row1 * d.y + frame.environment_row2 * d.z;
 }
 
 vec3 environment_radiance(vec3 direction)
 {
 #ifdef ENVIRONMENT_IMAGE
-    vec2 uv = environment_uv(direction);
-    TextureContext context = context_at(direction, uv, direction);
+    vec3 local = environment_local(direction);
+    TextureContext context = direction_context(direction, local, ENVIRONMENT_UV(local));
     return max(texture_evaluate(frame.environment_texture, context).rgb, vec3(0.0)) * frame.environment_scale;
 #else
     return frame.environment_radiance;
@@ -33,18 +40,18 @@ vec3 environment_radiance(vec3 direction)
 EnvironmentCell environment_cell(uint i) { return environment_cell_unpack(fetch_environment(i)); }
 
 // Density over solid angle of a cell, the solid angle taken where the direction is.
-float environment_cell_density(float chance, float v)
+float environment_cell_density(float chance, vec2 uv)
 {
     float cells = float(frame.environment_size.x * frame.environment_size.y);
-    return chance * cells / (2.0 * PI * PI * max(cos((v - 0.5) * PI), 1e-6));
+    return chance * cells * ENVIRONMENT_UV_PDF(uv);
 }
 
 float environment_pdf(vec3 direction)
 {
 #ifdef ENVIRONMENT_IMAGE
-    vec2 uv = environment_uv(direction);
+    vec2 uv = ENVIRONMENT_UV(environment_local(direction));
     uvec2 at = min(uvec2(uv * vec2(frame.environment_size)), frame.environment_size - 1u);
-    return environment_cell_density(environment_cell(at.y * frame.environment_size.x + at.x).chance, uv.y);
+    return environment_cell_density(environment_cell(at.y * frame.environment_size.x + at.x).chance, uv);
 #else
     return INV_FOUR_PI;
 #endif
@@ -64,7 +71,7 @@ LightSample environment_sample(float pick, vec2 u01)
     vec2 corner = vec2(index % frame.environment_size.x, index / frame.environment_size.x);
     vec2 uv = (corner + vec2(rest, u01.y)) / vec2(frame.environment_size);
     vec3 wi = environment_direction(uv);
-    float pdf = environment_cell_density(chance, uv.y);
+    float pdf = environment_cell_density(chance, uv);
 #else
     vec3 wi = sphere_sample(u01);
     float pdf = INV_FOUR_PI;

@@ -3,7 +3,8 @@
 #include "light/punctual.glsl"
 #include "light/sphere.glsl"
 #include "light/quad.glsl"
-#include "light/flat.glsl"
+#include "light/disk.glsl"
+#include "light/triangle.glsl"
 #include "light/environment.glsl"
 
 LightSample light_sample_one(Light light, vec3 from, vec2 u01)
@@ -17,6 +18,9 @@ LightSample light_sample_one(Light light, vec3 from, vec2 u01)
 #endif
 #ifdef HAS_LIGHT_DISTANT
     case LIGHT_DISTANT: return distant_sample(light);
+#endif
+#ifdef HAS_LIGHT_PROJECTION
+    case LIGHT_PROJECTION: return projection_sample(light, from);
 #endif
 #ifdef HAS_LIGHT_SPHERE
     case LIGHT_SPHERE: return sphere_sample_light(light, from, u01);
@@ -54,10 +58,30 @@ LightSample light_sample(vec3 from, float pick, vec2 u01)
     if (!own) light = light_fetch(light.alias);
     LightSample s = light_sample_one(light, from, u01);
     s.pdf *= light.chance;
+#ifdef TEXTURED_LIGHTS
+    if (s.delta && s.pdf > 0.0 && light.texture != NONE) s.radiance *= punctual_texture(light, from, s.wi);
+#endif
     return s;
 #else
     return LIGHT_NOTHING;
 #endif
+}
+
+// Density over solid angle with which light_sample_one would have chosen a point of a light.
+float light_pdf_one(Light light, vec3 from, vec3 point, vec3 normal)
+{
+    switch (light.kind) {
+#ifdef HAS_LIGHT_SPHERE
+    case LIGHT_SPHERE: return sphere_light_pdf(light, from, point, normal);
+#endif
+#ifdef HAS_LIGHT_QUAD
+    case LIGHT_QUAD: return quad_light_pdf(light, from, point, normal);
+#endif
+#ifdef HAS_LIGHT_TRIANGLE
+    case LIGHT_TRIANGLE: return triangle_light_pdf(light, from, point, normal);
+#endif
+    default: return area_to_solid_angle(light.b, from, point, normal);
+    }
 }
 
 // Density with which light_sample would have chosen a point on light `index`.
@@ -65,17 +89,7 @@ float light_pdf(uint index, vec3 from, vec3 point, vec3 normal)
 {
 #ifdef HAS_LIGHTS
     Light light = light_fetch(index);
-    float pdf = 0.0;
-    switch (light.kind) {
-#ifdef HAS_LIGHT_SPHERE
-    case LIGHT_SPHERE: pdf = sphere_light_pdf(light, from, point, normal); break;
-#endif
-#ifdef HAS_LIGHT_QUAD
-    case LIGHT_QUAD: pdf = quad_light_pdf(light, from, point, normal); break;
-#endif
-    default: pdf = flat_light_pdf(light, from, point, normal); break;
-    }
-    return pdf * light.chance;
+    return light_pdf_one(light, from, point, normal) * light.chance;
 #else
     return 0.0;
 #endif

@@ -1,5 +1,13 @@
-// Lights without extent: point, spot, distant.
+// Lights without extent: point, spot, distant, projection; and the textures that drive them.
+// Switches: TEXTURED_LIGHTS, EQUAL_AREA_LIGHTS, and HAS_LIGHT_… for each kind.
 #include "light/sample.glsl"
+#include "light/direction.glsl"
+
+// A world direction in the space of the light, which shines along −z.
+vec3 punctual_local(Light light, vec3 direction)
+{
+    return vec3(dot(cross(light.edge_u, light.edge_v), direction), dot(light.edge_v, direction), -dot(light.edge_u, direction));
+}
 
 LightSample point_sample(Light light, vec3 from)
 {
@@ -23,3 +31,35 @@ LightSample distant_sample(Light light)
 {
     return LightSample(-light.edge_u, vec3(0.0), vec3(0.0), 0.0, light.radiance, 1.0, true, true);
 }
+
+// Place in the picture of a direction that goes forward: (0, 0) to (1, 1) is what the light fills.
+vec2 projection_uv(Light light, vec3 local) { return 0.5 - 0.5 * local.xy / (local.z * vec2(light.a, light.b)); }
+
+// Whole inside a rectangle, nothing outside (pbrt-v4, section 12.2.3).
+LightSample projection_sample(Light light, vec3 from)
+{
+    LightSample s = point_sample(light, from);
+    vec3 local = punctual_local(light, -s.wi);
+    bool inside = local.z < 0.0 && abs(local.x) <= -local.z * light.a && abs(local.y) <= -local.z * light.b;
+    return inside ? s : LIGHT_NOTHING;
+}
+
+#ifdef TEXTURED_LIGHTS
+// Factor that the texture of a light puts on what arrives from direction wi.
+vec3 punctual_texture(Light light, vec3 from, vec3 wi)
+{
+    vec3 local = punctual_local(light, -wi);
+    vec2 uv = equirectangular_uv(local);
+#ifdef EQUAL_AREA_LIGHTS
+    if (light.extra != 0u) uv = equal_area_uv(local);
+#endif
+#ifdef HAS_LIGHT_PROJECTION
+    if (light.kind == LIGHT_PROJECTION) uv = projection_uv(light, local);
+#endif
+    TextureContext context = direction_context(-wi, local, uv);
+#ifdef HAS_LIGHT_DISTANT
+    if (light.kind == LIGHT_DISTANT) context = context_at(from, punctual_local(light, from).xy, light.edge_u);
+#endif
+    return max(texture_evaluate(light.texture, context).rgb, vec3(0.0));
+}
+#endif

@@ -73,7 +73,7 @@ LightSample quad_sample_light(Light light, vec3 from, vec2 u01)
     vec3 point = light.position + at.x * light.edge_u + at.y * light.edge_v;
     vec3 normal = light.a * light_plane_normal(light);
     float pdf = spherical ? 1.0 / r.solid_angle : area_to_solid_angle(light.b, from, point, normal);
-    return light_surface_point(light, from, point, normal, pdf, at);
+    return light_surface_point(light, from, pdf, context_at(point, at, normal));
 }
 
 float quad_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)

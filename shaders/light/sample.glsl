@@ -33,22 +33,20 @@ vec3 light_plane_normal(Light light)
     return normalize(cross(normalize_or(light.edge_u, vec3(0.0)), normalize_or(light.edge_v, vec3(0.0))));
 }
 
-// A point on a surface light, chosen with the solid-angle density `pdf`.
-LightSample light_surface_point(Light light, vec3 from, vec3 point, vec3 normal, float pdf, vec2 uv)
+// A point on a surface light, chosen with the solid-angle density `pdf`: what textures are told of it has its place.
+LightSample light_surface_point(Light light, vec3 from, float pdf, TextureContext context)
 {
-    vec3 to = point - from;
-    vec3 wi = normalize(to);
+    vec3 point = context.position;
+    vec3 normal = context.normal;
+    vec3 wi = normalize(point - from);
     float facing = -dot(wi, normal);
     if (!(pdf > 0.0) || (facing <= 0.0 && light.two_sided == 0u) || facing == 0.0) return LIGHT_NOTHING;
     vec3 radiance = light.radiance;
 #ifdef TEXTURED_EMISSION
-    if (light.texture != NONE) {
-        TextureContext context = context_at(point, uv, normal);
-        radiance *= max(texture_evaluate(light.texture, context).rgb, vec3(0.0));
-    }
+    if (light.texture != NONE) radiance *= max(texture_evaluate(light.texture, context).rgb, vec3(0.0));
 #endif
 #ifdef HAS_OPACITY
-    radiance *= opacity_at(detail_fetch(light.material), context_at(point, uv, normal));
+    radiance *= opacity_at(detail_fetch(light.material), context);
 #endif
     vec3 reach = abs(light.position) + abs(light.edge_u) + abs(light.edge_v);
     if (light.kind == LIGHT_SPHERE) reach += abs(vec3(light.uv0, light.uv1.x));

@@ -46,7 +46,7 @@ LightSample ellipsoid_sample_light(Light light, SphereMap map, vec3 from, vec2 u
     float growth;
     vec3 normal = sphere_normal(map, n, growth);
     float pdf = area_to_solid_angle(4.0 * PI * growth, from, point, normal);
-    return light_surface_point(light, from, point, normal, pdf, sphere_uv(n));
+    return light_surface_point(light, from, pdf, context_at(point, sphere_uv(n), normal));
 }
 
 LightSample sphere_sample_light(Light light, vec3 from, vec2 u01)
@@ -70,7 +70,7 @@ LightSample sphere_sample_light(Light light, vec3 from, vec2 u01)
     vec3 towards = -axis * inversesqrt(d2);
     vec3 n = basis_to_world(basis_around(towards), vec3(sin_alpha * cos(phi), sin_alpha * sin(phi), cos_alpha));
     vec2 uv = sphere_uv(sphere_object_point(map, radius * n));
-    return light_surface_point(light, from, light.position + radius * n, n, INV_TWO_PI / one_minus_cos_max, uv);
+    return light_surface_point(light, from, INV_TWO_PI / one_minus_cos_max, context_at(light.position + radius * n, uv, n));
 }
 
 float sphere_light_pdf(Light light, vec3 from, vec3 point, vec3 normal)

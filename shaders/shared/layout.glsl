@@ -76,6 +76,9 @@ const uint DETAIL_SOFT_TERMINATOR = 2u; // Detail flag: the light at the edge of
 const uint DETAIL_VISIBLE = 4u; // Detail flag: a normal that is turned away from the viewer is turned back.
 const uint DETAIL_VERTEX_TANGENTS = 8u; // Detail flag: tangents of a normal map are those of the vertices.
 const uint DETAIL_GREEN_DOWN = 16u; // Detail flag: green in a normal map is down.
+const uint DETAIL_FRONT_ONLY = 32u; // Detail flag: the surface is there from its front alone.
+const uint DETAIL_HEIGHT_UV1 = 64u; // Detail flag: the picture of a bump map is placed by the second uv.
+const uint DETAIL_NORMAL_UV1 = 128u; // Detail flag: the picture of a normal map is placed by the second uv.
 const uint DERIVATIVE_FORWARD = 0u; // Rule of a derivative: forward differences.
 const uint DERIVATIVE_KERNEL = 1u; // Rule of a derivative: the 3 × 3 kernel over texels.
 const uint DERIVATIVE_BILINEAR = 2u; // Rule of a derivative: that of the bilinear surface between texels.
@@ -87,6 +90,7 @@ const uint FRESNEL_EXACT = 1u; // Conductor rule: conductor with eta 1 and the k
 const uint FRESNEL_SCHLICK = 2u; // Conductor rule: Schlick's approximation.
 const uint FRESNEL_NONE = 3u; // Conductor rule: the same at every angle.
 const uint PUPIL_INTERVALS = 64u; // Intervals of the distance from the middle of the film that have bounds of the exit pupil of their own.
+const uint FILTER_CELLS = 128u; // Cells of a pixel filter from its middle to its radius, a power of two.
 const uint LIGHT_POINT = 0u; // Light kind: point light.
 const uint LIGHT_SPOT = 1u; // Light kind: spot light.
 const uint LIGHT_DISTANT = 2u; // Light kind: parallel light.
@@ -94,6 +98,8 @@ const uint LIGHT_SPHERE = 3u; // Light kind: sphere or ellipsoid.
 const uint LIGHT_QUAD = 4u; // Light kind: rectangle or parallelogram.
 const uint LIGHT_DISK = 5u; // Light kind: disk; edges are its radii.
 const uint LIGHT_TRIANGLE = 6u; // Light kind: triangle of a mesh.
+const uint LIGHT_TURNED = 2147483648u; // Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
+const uint LIGHT_PROJECTION = 7u; // Light kind: picture thrown from a point.
 const uint TEXELS_RGBA8 = 0u; // Texel format: a word holds 2×2 texels of 8 bits a channel.
 const uint TEXELS_RGBA8_SRGB = 1u; // Texel format: the same; colour is decoded before it is filtered.
 const uint TEXELS_RGBA16F = 2u; // Texel format: a word holds 2×1 texels of halves.
@@ -107,6 +113,7 @@ const uint WRAP_V_SHIFT = 2u; // Position of the wrap mode along v in the flags 
 const uint WRAP_W_SHIFT = 6u; // Position of the wrap mode across the slices in the flags of a stack.
 const uint FLAG_NEAREST = 16u; // Flag of an image texture: the nearest texel in place of bilinear filtering.
 const uint FLAG_INVERT = 32u; // Flag of an image texture: 1 less the colour.
+const uint FLAG_OCTAHEDRAL = 4096u; // Flag of an image texture: an octahedral map, beyond whose edges its sphere goes on; in place of the wrap modes.
 const uint CHANNEL_SHIFT = 8u; // Position of the channel in the flags of an image texture.
 const uint CHANNEL_MASK = 15u; // Bits of the channel in the flags of an image texture, moved down to bit 0.
 const uint LEVELS_SHIFT = 16u; // Position of the number of levels in the flags of an image texture; nothing is above it.
@@ -176,7 +183,9 @@ struct Frame {
     uvec2 environment_size; // columns and rows of the importance table of the environment
     uint parked_stack; // entries of the stack of a parked ray
     uint point_count; // points of the evaluate and probe kernels
-    uvec3 spare; // room
+    uint filter_cells; // first word of `lens` with the cells of the pixel filter
+    float filter_weight; // magnitude of the pixel filter over its whole, by which samples are weighted
+    uint spare; // room
     uint camera_medium; // material of the glass around the camera, or NONE
 };
 
@@ -224,14 +233,46 @@ Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
 
 struct Face {
     uvec3 vertices; // three Vertex records
-    uint spare; // room
+    uint extra; // word of `faces` with what only textures ask of its corners, or NONE: CornerColors, then CornerUvs, those that the scene uses
 };
 const uint FACE_WORDS = 1u;
 Face face_unpack(uvec4 w0)
 {
     Face r;
     r.vertices = uvec3(w0.x, w0.y, w0.z);
-    r.spare = w0.w;
+    r.extra = w0.w;
+    return r;
+}
+
+struct CornerColors {
+    vec4 a; // of the first
+    vec4 b; // of the second
+    vec4 c; // of the third
+};
+const uint CORNER_COLORS_WORDS = 3u;
+CornerColors corner_colors_unpack(uvec4 w0, uvec4 w1, uvec4 w2)
+{
+    CornerColors r;
+    r.a = uintBitsToFloat(uvec4(w0.x, w0.y, w0.z, w0.w));
+    r.b = uintBitsToFloat(uvec4(w1.x, w1.y, w1.z, w1.w));
+    r.c = uintBitsToFloat(uvec4(w2.x, w2.y, w2.z, w2.w));
+    return r;
+}
+
+struct CornerUvs {
+    vec2 a; // of the first
+    vec2 b; // of the second
+    vec2 c; // of the third
+    vec2 spare; // room
+};
+const uint CORNER_UVS_WORDS = 2u;
+CornerUvs corner_uvs_unpack(uvec4 w0, uvec4 w1)
+{
+    CornerUvs r;
+    r.a = uintBitsToFloat(uvec2(w0.x, w0.y));
+    r.b = uintBitsToFloat(uvec2(w0.z, w0.w));
+    r.c = uintBitsToFloat(uvec2(w1.x, w1.y));
+    r.spare = uintBitsToFloat(uvec2(w1.z, w1.w));
     return r;
 }
 
@@ -398,18 +439,18 @@ struct Light {
     float accept; // share of its slot of the alias table that is its own
     uint alias; // the light that has the rest of the slot
     vec3 position; // position, centre, corner or first vertex
-    float a; // radius (0: ellipsoid); -1 when a flat light faces against u × v; cosine of a spot's inner cone
-    vec3 edge_u; // first edge, axis, or second vertex less the first
-    float b; // cosine of the outer cone of a spot; area of a surface
-    vec3 edge_v; // second edge, or third vertex less the first
+    float a; // radius (0: ellipsoid); -1 if a flat light faces against u × v; cosine of a spot's inner cone; half-width of a projection
+    vec3 edge_u; // first edge, second vertex less the first, or direction of a light without extent
+    float b; // area of a surface; cosine of the outer cone of a spot; half-height of a projection, both at distance 1
+    vec3 edge_v; // second edge, third vertex less the first, or what is up for the texture of a light without extent
     uint two_sided; // 1 when it shines on both sides
-    vec3 radiance; // radiance, intensity or irradiance
-    uint texture; // texture of the radiance, or NONE
+    vec3 radiance; // radiance, intensity or irradiance, or a factor on that of its texture
+    uint texture; // its texture, or NONE
     vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a sphere
     vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
     vec2 uv2; // uv of the third vertex less the first
     uint material; // material of a surface
-    uint spare; // room
+    uint extra; // triangle: that of its Face, or NONE; LIGHT_TURNED: two corners changed places. point light: 1 for an equal-area map
 };
 const uint LIGHT_WORDS = 7u;
 Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
@@ -431,7 +472,7 @@ Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, u
     r.uv1 = uintBitsToFloat(uvec2(w5.z, w5.w));
     r.uv2 = uintBitsToFloat(uvec2(w6.x, w6.y));
     r.material = w6.z;
-    r.spare = w6.w;
+    r.extra = w6.w;
     return r;
 }
 
@@ -560,9 +601,12 @@ struct TexturePoint {
     float time; // time in the shutter interval, 0..1
     vec3 object_normal; // normal in object space
     uint reference; // the texture
+    vec2 uv1; // second texture coordinates
+    vec2 uv1_footprint; // the widths in these
+    vec4 vertex_color; // colour of the vertices, linear, with alpha
 };
-const uint TEXTURE_POINT_WORDS = 5u;
-TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4)
+const uint TEXTURE_POINT_WORDS = 7u;
+TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)
 {
     TexturePoint r;
     r.position = uintBitsToFloat(uvec3(w0.x, w0.y, w0.z));
@@ -575,6 +619,9 @@ TexturePoint texture_point_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 
     r.time = uintBitsToFloat(w3.w);
     r.object_normal = uintBitsToFloat(uvec3(w4.x, w4.y, w4.z));
     r.reference = w4.w;
+    r.uv1 = uintBitsToFloat(uvec2(w5.x, w5.y));
+    r.uv1_footprint = uintBitsToFloat(uvec2(w5.z, w5.w));
+    r.vertex_color = uintBitsToFloat(uvec4(w6.x, w6.y, w6.z, w6.w));
     return r;
 }
 
@@ -722,6 +769,23 @@ PupilBounds pupil_bounds_unpack(uvec4 w0)
     PupilBounds r;
     r.low = uintBitsToFloat(uvec2(w0.x, w0.y));
     r.high = uintBitsToFloat(uvec2(w0.z, w0.w));
+    return r;
+}
+
+struct FilterCell {
+    float below; // share of the magnitude in the cells before
+    float share; // share of the magnitude in this one
+    float sign; // 1, or -1 where the filter is negative
+    uint spare; // room
+};
+const uint FILTER_CELL_WORDS = 1u;
+FilterCell filter_cell_unpack(uvec4 w0)
+{
+    FilterCell r;
+    r.below = uintBitsToFloat(w0.x);
+    r.share = uintBitsToFloat(w0.y);
+    r.sign = uintBitsToFloat(w0.z);
+    r.spare = w0.w;
     return r;
 }
 

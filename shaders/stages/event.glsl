@@ -1,5 +1,6 @@
-// What the parts of a scattering event share. Switches of the variant: HAS_FOOTPRINT.
+// What the parts of a scattering event share. Switches of the variant: HAS_FOOTPRINT, HAS_UV1.
 #include "stages/wave.glsl"
+#include "base/cone.glsl"
 #include "base/offset.glsl"
 #include "geometry/surface.glsl"
 #include "texture/context.glsl"
@@ -20,6 +21,8 @@ vec3 ray_origin(Surface surface, float side)
 
 // A direction that was chosen with density p stands for the light of a cone of solid angle 1 / (64 p): its spread times √(πp).
 const float SAMPLE_SPREAD = 0.25;
+// A cone that is wider sees nearly all directions.
+const float MOST_SPREAD = 8.0;
 // Cosine below which a slanted pixel is not made longer.
 const float LEAST_SLANT = 0.05;
 
@@ -29,6 +32,9 @@ TextureContext sharp(TextureContext context)
     context.footprint = 0.0;
     context.object_footprint = 0.0;
     context.uv_footprint = vec2(0.0);
+#ifdef HAS_UV1
+    context.uv1_footprint = vec2(0.0);
+#endif
     return context;
 }
 
@@ -38,10 +44,15 @@ TextureContext context_of(Surface surface, WaveRay ray, vec3 facing_normal)
 {
     TextureContext context = surface_context(surface, facing_normal);
 #ifdef HAS_FOOTPRINT
-    float width = ray.width + ray.spread * distance(ray.origin, surface.position);
+    float width = cone_after(Cone(ray.width, ray.spread), distance(ray.origin, surface.position)).width;
     context.footprint = width * inversesqrt(max(abs(dot(ray.direction, surface.geometric)), LEAST_SLANT));
     context.object_footprint = context.footprint * surface.object_rate;
     context.uv_footprint = context.footprint * surface.uv_rate;
+#ifdef HAS_UV1
+    mat2x3 along = by_uv1(surface, surface.dpdu, surface.dpdv);
+    vec2 lengths = vec2(length(along[0]), length(along[1]));
+    context.uv1_footprint = context.footprint * mix(vec2(0.0), 1.0 / lengths, greaterThan(lengths, vec2(0.0)));
+#endif
 #endif
     return context;
 }

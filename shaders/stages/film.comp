@@ -1,8 +1,14 @@
-// The samples of a wave into the sums of the film: one invocation a pixel.
+// The samples of a wave into the sums of the film: one invocation a pixel. Switch of the variant: SIGNED_FILTER.
 #include "stages/wave.glsl"
 #include "base/fixed.glsl"
 
 const float AOV_SCALE = float(1u << AOV_BITS);
+// The largest magnitude of a sample before it is weighted.
+#ifdef SIGNED_FILTER
+#define SAMPLE_LIMIT (FIXED_LIMIT / frame.filter_weight)
+#else
+#define SAMPLE_LIMIT FIXED_LIMIT
+#endif
 
 // What the samples of a pixel add, before it goes into the film.
 struct PixelSums {
@@ -27,11 +33,18 @@ void add_sample(inout PixelSums sums, uint slot)
         sums.left_out += 1u;
         return;
     }
-    vec3 limited = clamp(radiance, vec3(0.0), vec3(FIXED_LIMIT));
+    vec3 limited = clamp(radiance, vec3(0.0), vec3(SAMPLE_LIMIT));
     if (limited != radiance) sums.clamped += 1u;
+#ifdef SIGNED_FILTER
+    limited *= frame.filter_weight;
+#endif
     vec3 whole = vec3(fixed_round(limited.x), fixed_round(limited.y), fixed_round(limited.z));
     for (int c = 0; c < 3; ++c) {
+#ifdef SIGNED_FILTER
+        sums.radiance[c] = fixed_add(sums.radiance[c], fixed_from_float((flags & PATH_NEGATIVE) != 0u ? -whole[c] : whole[c]));
+#else
         sums.radiance[c] = fixed_add(sums.radiance[c], fixed_from_float(whole[c]));
+#endif
         sums.squares[c] = fixed_wide_add(sums.squares[c], fixed_wide_from_float(whole[c] * whole[c]));
     }
     sums.samples += 1u;

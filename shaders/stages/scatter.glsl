@@ -4,6 +4,22 @@
 #include "material/material.glsl"
 #include "material/medium.glsl"
 
+#ifdef HAS_FOOTPRINT
+// The cone of a ray that has come to a surface and goes on from there, by the bend of the surface itself and not of its bumps.
+void bend_cone(inout WaveRay ray, Surface surface, BsdfSample s, vec3 wo)
+{
+    Cone cone = cone_after(Cone(ray.width, ray.spread), distance(ray.origin, surface.position));
+    float k = mean_curvature(surface.dpdu, surface.dpdv, surface.dndu, surface.dndv);
+    if (dot(ray.direction, surface.geometric) > 0.0) k = -k;
+    float cos_i = max(abs(wo.z), LEAST_SLANT);
+    float cos_t = max(abs(s.wi.z), LEAST_SLANT);
+    cone = s.through ? cone_refracted(cone, k, s.eta, cos_i, cos_t) : cone_reflected(cone, k);
+    float spread = clamp(cone.spread, -MOST_SPREAD, MOST_SPREAD);
+    ray.width = cone.width;
+    ray.spread = s.pdf > 0.0 ? max(spread, SAMPLE_SPREAD * inversesqrt(PI * s.pdf)) : spread;
+}
+#endif
+
 // Chooses the next direction; false when the path ends.
 bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, inout WaveRay ray)
 {
@@ -36,8 +52,7 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
     }
 #endif
 #ifdef HAS_FOOTPRINT
-    ray.width += ray.spread * distance(ray.origin, surface.position);
-    if (s.pdf > 0.0) ray.spread = max(ray.spread, SAMPLE_SPREAD * inversesqrt(PI * s.pdf));
+    bend_cone(ray, surface, s, wo);
 #endif
     ray.origin = ray_origin(surface, side);
     ray.direction = wi;

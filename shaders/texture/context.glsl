@@ -1,4 +1,4 @@
-// What a texture may depend on.
+// What a texture may depend on. Switches of the variant: HAS_VERTEX_COLOR, HAS_UV1.
 #include "base/time.glsl"
 
 struct TextureContext {
@@ -11,10 +11,24 @@ struct TextureContext {
     float object_footprint; // the same in units of object space
     vec2 uv_footprint;      // the same in u and in v
     float time;             // in the shutter interval, 0..1
+#ifdef HAS_VERTEX_COLOR
+    vec4 vertex_color;      // linear; white where there is none
+#endif
+#ifdef HAS_UV1
+    vec2 uv1;               // the second set, or the first where there is none
+    vec2 uv1_footprint;     // width of the pixel there
+#endif
 };
 
 // A point without a size at the time of the path, where world and object space are one.
 TextureContext context_at(vec3 position, vec2 uv, vec3 normal)
 {
-    return TextureContext(position, position, uv, normal, normal, 0.0, 0.0, vec2(0.0), path_time);
+    return TextureContext(position, position, uv, normal, normal, 0.0, 0.0, vec2(0.0), path_time
+#ifdef HAS_VERTEX_COLOR
+                          , vec4(1.0)
+#endif
+#ifdef HAS_UV1
+                          , uv, vec2(0.0)
+#endif
+                          );
 }

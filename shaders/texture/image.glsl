@@ -58,9 +58,22 @@ uint wrap_index(int i, int n, uint mode, inout bool outside)
     return uint(clamp(i, 0, n - 1));
 }
 
+#ifdef OCTAHEDRAL_PICTURES
+// Beyond an edge of an octahedral map comes the row along that edge, turned about its middle.
+ivec2 octahedral_place(ivec2 at, ivec2 size)
+{
+    if (at.x < 0 || at.x >= size.x) at = ivec2(at.x < 0 ? -1 - at.x : 2 * size.x - 1 - at.x, size.y - 1 - at.y);
+    if (at.y < 0 || at.y >= size.y) at = ivec2(size.x - 1 - at.x, at.y < 0 ? -1 - at.y : 2 * size.y - 1 - at.y);
+    return at;
+}
+#endif
+
 vec4 wrapped_texel(ImageTexture image, uint format, bool coarse, ivec2 at)
 {
     bool outside = false;
+#ifdef OCTAHEDRAL_PICTURES
+    if ((image.flags & FLAG_OCTAHEDRAL) != 0u) at = octahedral_place(at, ivec2(image.size));
+#endif
     uint x = wrap_index(at.x, int(image.size.x), image.flags & WRAP_MASK, outside);
     uint y = wrap_index(at.y, int(image.size.y), (image.flags >> WRAP_V_SHIFT) & WRAP_MASK, outside);
     return outside ? vec4(0.0) : texel(image, format, coarse, x, y);

@@ -1,3 +1,4 @@
+// Switch of the variant: HAS_UV1.
 // Texture coordinates in place of those of the surface: each function gives the context with a uv and the width of the pixel in u and v.
 #include "shared/bindings.glsl"
 #include "base/math.glsl"
@@ -27,6 +28,13 @@ TextureContext context_with(TextureContext context, vec2 uv, vec2 width)
 }
 
 TextureContext mapped_uv(Mapping m, vec3 p, float width, TextureContext context) { return context; }
+
+#ifdef HAS_UV1
+TextureContext mapped_uv1(Mapping m, vec3 p, float width, TextureContext context)
+{
+    return context_with(context, context.uv1, context.uv1_footprint);
+}
+#endif
 
 // Longitude in turns; on the axis, where it has none, what the scene says.
 float longitude(Mapping m, vec2 p) { return p == vec2(0.0) ? m.pole_u : turns(p); }

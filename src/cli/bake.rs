@@ -130,6 +130,8 @@ impl Plane {
             position,
             object_position: position,
             uv,
+            uv1: uv,
+            vertex_color: [1.0; 4],
             normal,
             object_normal: normal,
             ..TexturePoint::default()

@@ -9,6 +9,7 @@ mod bench;
 mod check;
 mod console;
 mod devices;
+mod diff;
 mod event;
 mod job;
 mod lens;
@@ -51,6 +52,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(args)) => with(Console::new(args.json, false), |c| Ok(check::run(&args, c)?)),
         Some(Command::Bench(args)) => with(Console::new(args.json, false), |c| Ok(bench::run(&args, c)?)),
         Some(Command::Bake(args)) => with(Console::new(args.json, args.quiet), |c| Ok(bake::run(&args, c)?)),
+        Some(Command::Diff(args)) => with(Console::new(args.json, false), |c| Ok(diff::run(&args, c)?)),
         Some(Command::Lens(args)) => with(Console::new(args.json, false), |c| Ok(lens::run(&args, c)?)),
         None => {
             console::say(&Args::command().render_help().to_string());

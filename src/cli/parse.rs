@@ -59,6 +59,12 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "write a number above 0, such as 1000 or 5.6".into())
 }
 
+/// A finite number that is not below 0.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| *number >= 0.0 && number.is_finite());
+    number.ok_or_else(|| "write a number that is not below 0, such as 0.015".into())
+}
+
 /// A finite number.
 pub fn finite(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());

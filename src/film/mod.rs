@@ -15,7 +15,8 @@ mod write;
 
 pub use grid::{Grid, write_grid};
 pub use resolve::Picture;
-pub use write::{Format, Meta, check_target, format_of, write};
+pub use tone::srgb;
+pub use write::{Format, Meta, check_target, format_of, write, write_bytes};
 
 use crate::layout::FILM_PLANES;
 use crate::scene::{MAX_SAMPLES, Rect};

@@ -16,7 +16,7 @@ pub(super) fn encode(curve: ToneCurve, linear: [f64; 3]) -> [f64; 3] {
 }
 
 /// The sRGB curve of IEC 61966-2-1, without a limit above.
-pub(super) fn srgb(linear: f64) -> f64 {
+pub fn srgb(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 

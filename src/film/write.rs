@@ -87,6 +87,15 @@ pub fn write(path: &Path, picture: &Picture, film: &scene::Film, meta: &Meta) ->
     write_file(path, bytes)
 }
 
+/// Writes a file whole or not at all.
+///
+/// # Errors
+///
+/// When it cannot be written; a file of that name is then as before.
+pub fn write_bytes(path: &Path, bytes: Vec<u8>) -> Result<()> {
+    write_file(path, Ok(bytes))
+}
+
 /// Writes an encoded file whole or not at all.
 pub(super) fn write_file(path: &Path, bytes: io::Result<Vec<u8>>) -> Result<()> {
     bytes

@@ -11,6 +11,8 @@ mod obj;
 mod pbrt;
 mod ply;
 mod ply_header;
+mod ply_vertices;
+mod srgb;
 mod text;
 mod toml;
 mod volume;

@@ -5,9 +5,10 @@
 
 use super::file::{read_bytes, shown};
 use super::mesh::{normalize_normals, triangulate};
+use super::srgb::linear_from_srgb;
 use crate::scene::{Mesh, MeshPart};
 use crate::{Error, Result};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -17,8 +18,10 @@ use std::path::Path;
 ///   or `o`. Material files are not read.
 /// * Corners with the same indices share a vertex; all others have vertices of their own.
 /// * Normals are kept, with unit length, only if every corner has one; texture coordinates likewise.
+/// * A position may have a colour, `v x y z r g b`, in sRGB from 0 to 1, as Blender writes it, and alpha behind it. Where one has, those
+///   without are white.
 /// * Polygons are cut into triangles. Points, lines, curves, smoothing groups and unknown keywords are passed over,
-///   and so are the fourth coordinate or the colour of a position and the third texture coordinate.
+///   and so are the fourth coordinate of a position and the third texture coordinate.
 ///
 /// # Errors
 /// With the line: too few or too many numbers, words that are not numbers, numbers that are not finite in single
@@ -40,11 +43,13 @@ const ABSENT: u32 = u32::MAX;
 struct Reader {
     /// What the file lists.
     positions: Vec<Vec3>,
+    colors: Vec<Vec4>,
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
     /// What the mesh holds: one vertex for each different corner.
     mesh: Mesh,
     vertices: HashMap<Corner, u32>,
+    some_color: bool,
     some_uv_absent: bool,
     some_normal_absent: bool,
     /// Names that apply to the next face.
@@ -87,11 +92,13 @@ impl Reader {
         let (keyword, rest) = line.split_at(end);
         match keyword {
             b"v" => {
-                let ([x, y, z, ..], count) = numbers::<8>("position", rest)?;
+                let ([x, y, z, r, g, b, a, _], count) = numbers::<8>("position", rest)?;
                 if !matches!(count, 3 | 4 | 6 | 7) {
                     return Err(wrong_count("position", count, "3 numbers x y z"));
                 }
                 self.positions.push(Vec3::new(x, y, z));
+                self.colors.push(color([r, g, b, a], count));
+                self.some_color |= count >= 6;
             }
             b"vt" => {
                 let ([u, v, ..], count) = numbers::<4>("texture coordinate", rest)?;
@@ -171,6 +178,7 @@ impl Reader {
         let vertex = count_u32(self.mesh.positions.len(), "vertices")?;
         let [v, vt, vn] = corner.map(|i| i as usize);
         self.mesh.positions.push(self.positions.get(v).copied().unwrap_or_default());
+        self.mesh.colors.push(self.colors.get(v).copied().unwrap_or(Vec4::ONE));
         self.some_uv_absent |= corner[1] == ABSENT;
         self.some_normal_absent |= corner[2] == ABSENT;
         if !self.some_uv_absent {
@@ -188,6 +196,9 @@ impl Reader {
         if mesh.triangles.is_empty() {
             return Err(Error::scene("the mesh has no triangles").help("export it with its faces"));
         }
+        if !self.some_color {
+            mesh.colors = Vec::new();
+        }
         if self.some_uv_absent {
             mesh.uvs = Vec::new();
         }
@@ -197,6 +208,15 @@ impl Reader {
         normalize_normals(&mut mesh);
         Ok(mesh)
     }
+}
+
+/// The colour of a position with so many numbers, of which these are the fourth and on.
+fn color([r, g, b, a]: [f32; 4], count: usize) -> Vec4 {
+    if count < 6 {
+        return Vec4::ONE;
+    }
+    let [r, g, b] = [r, g, b].map(|channel| linear_from_srgb(channel.clamp(0.0, 1.0)));
+    Vec4::new(r, g, b, if count > 6 { a.clamp(0.0, 1.0) } else { 1.0 })
 }
 
 /// Index from 0 of an index from 1, or from −1 backwards from the last of `count`.
@@ -253,132 +273,5 @@ fn numbers<const N: usize>(thing: &str, rest: &[u8]) -> Result<([f32; N], usize)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn ok(text: &str) -> Mesh {
-        parse(text.as_bytes()).unwrap()
-    }
-
-    fn error(text: &str) -> String {
-        let (line, error) = parse(text.as_bytes()).unwrap_err();
-        error.at(Path::new("m.obj"), line, 0).to_string()
-    }
-
-    const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-
-    #[test]
-    fn triangles_polygons_and_indices_from_the_end() {
-        let mesh = ok(&format!("{CORNERS}f 1 2 3\nf -4 -3 -2 -1 # a quad\n"));
-        assert_eq!(mesh.positions.len(), 4);
-        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 3]]);
-        assert_eq!(mesh.parts, [MeshPart { name: String::new(), triangles: 0..3, material: None }]);
-        assert!(mesh.normals.is_empty() && mesh.uvs.is_empty());
-    }
-
-    #[test]
-    fn corners_with_different_indices_are_different_vertices() {
-        let text =
-            format!("{CORNERS}vt 0 0\nvt .5 1 0\nvn 0 0 2\nf 1/1/1 2/2/1 3/1/1\nf 1/2/1 2/2/1 3/1/1\n");
-        let mesh = ok(&text);
-        assert_eq!(mesh.triangles, [[0, 1, 2], [3, 1, 2]]);
-        assert_eq!(mesh.positions[0], mesh.positions[3]);
-        assert_eq!(mesh.uvs[3], Vec2::new(0.5, 1.0));
-        assert_eq!(mesh.normals, [Vec3::Z; 4]);
-    }
-
-    #[test]
-    fn one_corner_without_normal_or_uv_drops_them_all() {
-        let mesh = ok(&format!("{CORNERS}vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2/1/1 3/1/1"));
-        assert!(mesh.uvs.is_empty());
-        assert_eq!(mesh.normals.len(), 4);
-        assert!(
-            ok(&format!("{CORNERS}vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1/1 2/1/1 3/1"))
-                .normals
-                .is_empty()
-        );
-    }
-
-    #[test]
-    fn zero_normals_become_face_normals() {
-        let mesh = ok(&format!("{CORNERS}vn 0 0 0\nvn 1 0 0\nf 1//1 2//2 3//2"));
-        assert_eq!(mesh.normals, [Vec3::Z, Vec3::X, Vec3::X]);
-    }
-
-    #[test]
-    fn parts_take_the_material_name_or_else_the_group() {
-        let faces =
-            "o box\nf 1 2 3\ng top side\nf 1 2 3\nusemtl red #25\nf 1 2 3\ng x\nf 1 2 3\nusemtl b\nf 1 2 3";
-        let mesh = ok(&format!("{CORNERS}{faces}"));
-        let parts: Vec<_> = mesh.parts.iter().map(|p| (p.name.as_str(), p.triangles.clone())).collect();
-        assert_eq!(parts, [("box", 0..1), ("top side", 1..2), ("red #25", 2..4), ("b", 4..5)]);
-    }
-
-    #[test]
-    fn line_ends_and_continued_lines() {
-        let mesh = ok("v 0 0 0\r\nv 1 0\\\r\n 0\r\nv 1 1 0 1\r\n\tf 1 2 \\\n3");
-        assert_eq!(mesh.triangles, [[0, 1, 2]]);
-        assert_eq!(ok("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\\").triangles.len(), 1);
-    }
-
-    #[test]
-    fn errors_name_the_line_and_the_thing() {
-        assert_eq!(
-            error("v 0 0 0\nv 1 0\n"),
-            "m.obj:2: the position has 2 numbers, must have 3 numbers x y z; check that the file is complete"
-        );
-        assert_eq!(
-            error(&format!("{CORNERS}f 1 2 5")),
-            "m.obj:5: the index of a position is 5, but only 4 come before this line; check that the file is complete"
-        );
-        for (text, part) in [
-            ("v 0 nan 0", ":1: `nan` in a position is not a finite number"),
-            ("v 0 1e39 0", "`1e39` in a position"),
-            ("v 0 x 0", "`x` in a position"),
-            ("v 1 2 3 4 5", "has 5 numbers"),
-            ("vt", "has 0 numbers"),
-            ("vn 0 0 1 0", "has 4 numbers"),
-            ("v 0 0 0\nf 1 1 0", ":2: the index of a position is 0"),
-            ("v 0 0 0\nf 1 1 -2", "is -2, but only 1"),
-            ("v 0 0 0\nf 1 1/1 1", "texture coordinate is 1, but only 0"),
-            ("v 0 0 0\nf 1 1//1 1", "normal is 1, but only 0"),
-            ("v 0 0 0\nf 1 1", "the face has 2 corners"),
-            ("v 0 0 0\nf", "the face has 0 corners"),
-            ("v 0 0 0\nf 1/ 1 1", "`1/` is no corner"),
-            ("v 0 0 0\nf 1 1 1/1/1/1", "is 1, but only 0"),
-            ("v 0 0 0\nf 1 1 1////", "`1////` is no corner"),
-            ("v 0 0 0\nf 1 1 99999999999999999999", "is no corner"),
-            ("v 0 0 0\nf 1 1 -9223372036854775808", "but only 1"),
-            ("", "m.obj: the mesh has no triangles"),
-            ("v 0 0 0", "has no triangles"),
-        ] {
-            assert!(error(text).contains(part), "{text:?}: {}", error(text));
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn any_text_gives_a_sound_mesh_or_an_error(text in "([vf]|vt|vn|o|usemtl|[-0-9./ ]{1,9}|[\n\\\\]|[ -~]){0,80}") {
-            if let Ok(mesh) = parse(text.as_bytes()) {
-                prop_assert!(mesh.triangles.iter().flatten().all(|&v| (v as usize) < mesh.positions.len()));
-            }
-        }
-
-        #[test]
-        fn any_bytes_give_a_mesh_or_an_error(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
-            let _ = parse(&bytes);
-        }
-
-        #[test]
-        fn damaged_files_give_a_sound_mesh_or_an_error(at in 0_usize..100, byte: u8) {
-            let mut bytes = format!("{CORNERS}vt 0 0\nvn 0 0 2\nf 1/1/1 2/1/1 3/1/1 -1/-1/-1\nusemtl b\nf 1 2 3\n").into_bytes();
-            let at = at % bytes.len();
-            bytes[at] = byte;
-            if let Ok(mesh) = parse(&bytes) {
-                prop_assert!(mesh.triangles.iter().flatten().all(|&v| (v as usize) < mesh.positions.len()));
-                prop_assert!(mesh.normals.is_empty() || mesh.normals.len() == mesh.positions.len());
-            }
-        }
-    }
-}
+#[path = "obj_tests.rs"]
+mod tests;

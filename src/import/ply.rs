@@ -6,15 +6,16 @@
 use super::file::{read_bytes, shown};
 use super::mesh::{normalize_normals, triangulate};
 use super::ply_header::{self, Element, Format, Header, Scalar, is_index_list};
+use super::ply_vertices::read_vertices;
 use crate::scene::{Mesh, MeshPart};
 use crate::{Error, Result};
-use glam::{Vec2, Vec3};
 use std::path::Path;
 
 /// Reads the faces of a PLY file as triangles: ASCII, or binary of either byte order.
 ///
 /// * The element `vertex` has x, y, z; it may have nx, ny, nz, and u, v (or s, t, or texture_u, texture_v), of any
-///   types. Normals get unit length.
+///   types. Normals get unit length. It may have red, green, blue, and beside them alpha: whole numbers are sRGB, of which
+///   255 is most, and 65535 for `ushort`; floats are linear. Alpha is linear.
 /// * The element `face` has a list `vertex_indices` or `vertex_index`. Polygons are cut into triangles.
 /// * All other elements and properties are passed over. The mesh is a single part without a name.
 ///
@@ -44,7 +45,7 @@ fn parse(bytes: &[u8]) -> Result<Mesh, (u32, Error)> {
 }
 
 /// Numbers in the order of the file.
-trait Source {
+pub(super) trait Source {
     fn scalar(&mut self, scalar: Scalar) -> Result<f64>;
     /// Passes over numbers, at most as many as there are bytes.
     fn skip(&mut self, scalar: Scalar, count: usize) -> Result<()>;
@@ -248,7 +249,7 @@ fn skip_rows(element: &Element, source: &mut impl Source) -> Result<()> {
     Ok(())
 }
 
-fn list_length<S: Source>(source: &mut S, length: Scalar, scalar: Scalar) -> Result<usize> {
+pub(super) fn list_length<S: Source>(source: &mut S, length: Scalar, scalar: Scalar) -> Result<usize> {
     let value = source.scalar(length)?;
     if value < 0.0 || value.fract() != 0.0 || !value.is_finite() {
         return Err(
@@ -257,66 +258,6 @@ fn list_length<S: Source>(source: &mut S, length: Scalar, scalar: Scalar) -> Res
     }
     let count = value as usize;
     if count > source.left() / S::size(scalar) { Err(ends_early()) } else { Ok(count) }
-}
-
-/// Names of the properties that are read: x y z, normal, uv in its three spellings.
-const POSITION: [&str; 3] = ["x", "y", "z"];
-const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
-const UVS: [[&str; 2]; 3] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]];
-
-fn read_vertices(element: &Element, source: &mut impl Source, mesh: &mut Mesh) -> Result<()> {
-    let find = |name: &&str| element.properties.iter().position(|p| p.name == *name && p.length.is_none());
-    let all = |names: &[&str]| -> Option<Vec<usize>> { names.iter().map(find).collect() };
-    let positions = all(&POSITION).ok_or_else(|| {
-        Error::scene("the vertices have no complete position").help("give them the properties x, y and z")
-    })?;
-    let normals = all(&NORMAL);
-    let uvs = UVS.iter().find_map(|names| all(names));
-
-    // Slot of a row in which each property is kept; none = passed over.
-    let mut slots = vec![None; element.properties.len()];
-    let used = positions.iter().chain(normals.iter().flatten()).zip(0_usize..);
-    for (&property, slot) in used.chain(uvs.iter().flatten().zip(6..)) {
-        slots[property] = Some(slot);
-    }
-    let count = element.count as usize;
-    mesh.positions.reserve_exact(count);
-    mesh.normals.reserve_exact(if normals.is_some() { count } else { 0 });
-    mesh.uvs.reserve_exact(if uvs.is_some() { count } else { 0 });
-    for _ in 0..count {
-        let mut row = [0.0_f32; 8];
-        source.start_row();
-        for (property, slot) in element.properties.iter().zip(&slots) {
-            match (slot, property.length) {
-                (_, Some(length)) => {
-                    let length = list_length(source, length, property.scalar)?;
-                    source.skip(property.scalar, length)?;
-                }
-                (None, None) => source.skip(property.scalar, 1)?,
-                (Some(slot), None) => {
-                    let value = source.scalar(property.scalar)? as f32;
-                    if !value.is_finite() {
-                        let vertex = mesh.positions.len();
-                        let message = format!("{} of vertex {vertex} is not a finite number", property.name);
-                        return Err(
-                            Error::scene(message).help("export the mesh again without NaN and infinities")
-                        );
-                    }
-                    row[*slot] = value;
-                }
-            }
-        }
-        source.end_row()?;
-        let [x, y, z, nx, ny, nz, u, v] = row;
-        mesh.positions.push(Vec3::new(x, y, z));
-        if normals.is_some() {
-            mesh.normals.push(Vec3::new(nx, ny, nz));
-        }
-        if uvs.is_some() {
-            mesh.uvs.push(Vec2::new(u, v));
-        }
-    }
-    Ok(())
 }
 
 /// Faces that wait for their vertices.

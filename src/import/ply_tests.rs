@@ -1,4 +1,5 @@
 use super::*;
+use glam::{Vec2, Vec3, Vec4};
 use proptest::prelude::*;
 
 const HEADER: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
@@ -99,6 +100,33 @@ fn faces_may_come_before_the_vertices() {
         property float x\nproperty float y\nproperty float z\nend_header\n";
     let mesh = parse(ascii(header, "4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n").as_bytes()).unwrap();
     assert_eq!(mesh, parse(quad().as_bytes()).unwrap());
+}
+
+#[test]
+fn whole_numbers_of_colours_are_srgb_and_floats_are_linear() {
+    let colored = |types: [&str; 2], rows: [&str; 4]| {
+        let [color, alpha] = types;
+        let properties = format!(
+            "property {color} red\nproperty {color} green\nproperty {color} blue\n{}element face",
+            if alpha.is_empty() { String::new() } else { format!("property {alpha} alpha\n") }
+        );
+        let header = HEADER.replace("element face", &properties);
+        let [a, b, c, d] = rows;
+        let data = format!("0 0 0 {a}\n1 0 0 {b}\n1 1 0 {c}\n0 1 0 {d}\n4 0 1 2 3\n");
+        parse(ascii(&header, &data).as_bytes()).unwrap().colors
+    };
+    let near = |found: Vec4, expected: [f32; 4]| {
+        assert!((found - Vec4::from_array(expected)).length() < 1e-5, "{found}, expected {expected:?}");
+    };
+    let bytes = colored(["uchar", "uchar"], ["255 0 0 255", "0 188 0 51", "0 0 300 0", "-3 1 1 1"]);
+    near(bytes[0], [1.0, 0.0, 0.0, 1.0]);
+    near(bytes[1], [0.0, 0.502_886, 0.0, 0.2]);
+    near(bytes[2], [0.0, 0.0, 1.0, 0.0]);
+    let words = colored(["ushort", ""], ["65535 0 0", "0 48316 0", "0 0 0", "0 0 0"]);
+    near(words[1], [0.0, 0.502_886, 0.0, 1.0]);
+    let floats = colored(["float", "float"], ["1 0.5 0.25 0.5", "2 0 0 1", "0 0 0 0", "0 0 0 0"]);
+    assert_eq!(floats[..2], [Vec4::new(1.0, 0.5, 0.25, 0.5), Vec4::new(2.0, 0.0, 0.0, 1.0)]);
+    assert!(parse(quad().as_bytes()).unwrap().colors.is_empty());
 }
 
 #[test]

@@ -163,6 +163,12 @@ constants! {
     DETAIL_VERTEX_TANGENTS = 8;
     /// Detail flag: green in a normal map is down.
     DETAIL_GREEN_DOWN = 16;
+    /// Detail flag: the surface is there from its front alone.
+    DETAIL_FRONT_ONLY = 32;
+    /// Detail flag: the picture of a bump map is placed by the second uv.
+    DETAIL_HEIGHT_UV1 = 64;
+    /// Detail flag: the picture of a normal map is placed by the second uv.
+    DETAIL_NORMAL_UV1 = 128;
     /// Rule of a derivative: forward differences.
     DERIVATIVE_FORWARD = 0;
     /// Rule of a derivative: the 3 × 3 kernel over texels.
@@ -185,6 +191,8 @@ constants! {
     FRESNEL_NONE = 3;
     /// Intervals of the distance from the middle of the film that have bounds of the exit pupil of their own.
     PUPIL_INTERVALS = 64;
+    /// Cells of a pixel filter from its middle to its radius, a power of two.
+    FILTER_CELLS = 128;
     /// Light kind: point light.
     LIGHT_POINT = 0;
     /// Light kind: spot light.
@@ -199,6 +207,10 @@ constants! {
     LIGHT_DISK = 5;
     /// Light kind: triangle of a mesh.
     LIGHT_TRIANGLE = 6;
+    /// Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
+    LIGHT_TURNED = 1 << 31;
+    /// Light kind: picture thrown from a point.
+    LIGHT_PROJECTION = 7;
     /// Texel format: a word holds 2×2 texels of 8 bits a channel.
     TEXELS_RGBA8 = 0;
     /// Texel format: the same; colour is decoded before it is filtered.
@@ -225,6 +237,8 @@ constants! {
     FLAG_NEAREST = 16;
     /// Flag of an image texture: 1 less the colour.
     FLAG_INVERT = 32;
+    /// Flag of an image texture: an octahedral map, beyond whose edges its sphere goes on; in place of the wrap modes.
+    FLAG_OCTAHEDRAL = 4096;
     /// Position of the channel in the flags of an image texture.
     CHANNEL_SHIFT = 8;
     /// Bits of the channel in the flags of an image texture, moved down to bit 0.

@@ -28,6 +28,18 @@ records! {
         high: [f32; 2],
     }
 
+    /// A cell of a pixel filter, from its middle to its radius.
+    struct FilterCell {
+        /// share of the magnitude in the cells before
+        below: f32,
+        /// share of the magnitude in this one
+        share: f32,
+        /// 1, or -1 where the filter is negative
+        sign: f32,
+        /// room
+        spare: u32,
+    }
+
     /// A cell of the picture of an opening (alias method).
     struct OpeningCell {
         /// share of the slot that is its own

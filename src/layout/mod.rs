@@ -19,7 +19,7 @@ mod textures;
 pub use bindings::{BINDINGS, Backend, Binding, BindingKind, bindings_glsl};
 pub use constants::*;
 pub use glsl::layout_glsl;
-pub use lens::{LensInterface, OpeningCell, PupilBounds};
+pub use lens::{FilterCell, LensInterface, OpeningCell, PupilBounds};
 pub use motion::Motion;
 pub use patterns::*;
 pub use records::*;

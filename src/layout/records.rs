@@ -123,8 +123,12 @@ records! {
         parked_stack: u32,
         /// points of the evaluate and probe kernels
         point_count: u32,
+        /// first word of `lens` with the cells of the pixel filter
+        filter_cells: u32,
+        /// magnitude of the pixel filter over its whole, by which samples are weighted
+        filter_weight: f32,
         /// room
-        spare: [u32; 3],
+        spare: u32,
         /// material of the glass around the camera, or NONE
         camera_medium: u32,
     }
@@ -167,8 +171,30 @@ records! {
     struct Face {
         /// three Vertex records
         vertices: [u32; 3],
+        /// word of `faces` with what only textures ask of its corners, or NONE: CornerColors, then CornerUvs, those that the scene uses
+        extra: u32,
+    }
+
+    /// Colours of the corners of a triangle, linear, with alpha.
+    struct CornerColors {
+        /// of the first
+        a: [f32; 4],
+        /// of the second
+        b: [f32; 4],
+        /// of the third
+        c: [f32; 4],
+    }
+
+    /// Second texture coordinates of the corners of a triangle.
+    struct CornerUvs {
+        /// of the first
+        a: [f32; 2],
+        /// of the second
+        b: [f32; 2],
+        /// of the third
+        c: [f32; 2],
         /// room
-        spare: u32,
+        spare: [f32; 2],
     }
 
     /// Shading data of a vertex.
@@ -305,19 +331,19 @@ records! {
         alias: u32,
         /// position, centre, corner or first vertex
         position: [f32; 3],
-        /// radius (0: ellipsoid); -1 when a flat light faces against u × v; cosine of a spot's inner cone
+        /// radius (0: ellipsoid); -1 if a flat light faces against u × v; cosine of a spot's inner cone; half-width of a projection
         a: f32,
-        /// first edge, axis, or second vertex less the first
+        /// first edge, second vertex less the first, or direction of a light without extent
         edge_u: [f32; 3],
-        /// cosine of the outer cone of a spot; area of a surface
+        /// area of a surface; cosine of the outer cone of a spot; half-height of a projection, both at distance 1
         b: f32,
-        /// second edge, or third vertex less the first
+        /// second edge, third vertex less the first, or what is up for the texture of a light without extent
         edge_v: [f32; 3],
         /// 1 when it shines on both sides
         two_sided: u32,
-        /// radiance, intensity or irradiance
+        /// radiance, intensity or irradiance, or a factor on that of its texture
         radiance: [f32; 3],
-        /// texture of the radiance, or NONE
+        /// its texture, or NONE
         texture: u32,
         /// uv of the first vertex of a triangle; x and y of the third axis of a sphere
         uv0: [f32; 2],
@@ -327,8 +353,8 @@ records! {
         uv2: [f32; 2],
         /// material of a surface
         material: u32,
-        /// room
-        spare: u32,
+        /// triangle: that of its Face, or NONE; LIGHT_TURNED: two corners changed places. point light: 1 for an equal-area map
+        extra: u32,
     }
 
     /// A cell of the importance table of the environment (alias method).

@@ -97,5 +97,11 @@ records! {
         object_normal: [f32; 3],
         /// the texture
         reference: u32,
+        /// second texture coordinates
+        uv1: [f32; 2],
+        /// the widths in these
+        uv1_footprint: [f32; 2],
+        /// colour of the vertices, linear, with alpha
+        vertex_color: [f32; 4],
     }
 }

@@ -288,17 +288,7 @@ impl Reader<'_> {
 
     /// A texel as linear light; alpha is linear always.
     pub(super) fn linear(&self, x: u32, y: u32) -> [f32; 4] {
-        let i = self.index(x, y);
-        let [r, g, b, a] = match &self.image.texels {
-            Texels::Rgba8(texels) => texels[i].map(|c| f32::from(c) / 255.0),
-            Texels::Rgba16(texels) => texels[i].map(|c| f32::from(c) / 65535.0),
-            Texels::RgbaF32(texels) => texels[i],
-        };
-        if self.decode { [srgb_decode(r), srgb_decode(g), srgb_decode(b), a] } else { [r, g, b, a] }
+        let space = if self.decode { ColorSpace::Srgb } else { ColorSpace::Linear };
+        self.image.linear(self.index(x, y), space)
     }
-}
-
-/// IEC 61966-2-1.
-fn srgb_decode(c: f32) -> f32 {
-    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }

@@ -4,10 +4,12 @@ use super::Prepared;
 use super::textures::References;
 use crate::layout::{
     DERIVATIVE_BILINEAR, DERIVATIVE_CENTRAL, DERIVATIVE_FORWARD, DERIVATIVE_KERNEL, DETAIL_CURVATURE,
-    DETAIL_GREEN_DOWN, DETAIL_SOFT_TERMINATOR, DETAIL_VERTEX_TANGENTS, DETAIL_VISIBLE, Detail, NONE,
+    DETAIL_FRONT_ONLY, DETAIL_GREEN_DOWN, DETAIL_HEIGHT_UV1, DETAIL_NORMAL_UV1, DETAIL_SOFT_TERMINATOR,
+    DETAIL_VERTEX_TANGENTS, DETAIL_VISIBLE, Detail, NONE,
 };
 use crate::scene::{
-    self, Bump, Derivative, Handle, Image, Material, Mesh, NormalMap, Scene, Tangents, Texture, Value,
+    self, Bump, Derivative, Handle, Image, MappingKind, Material, Mesh, NormalMap, Scene, Sides, Tangents,
+    Texture, Value,
 };
 use glam::{DAffine2, DMat2, DVec2, Vec3};
 
@@ -19,7 +21,7 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
     for (_, _, material) in scene.materials.iter() {
         let detail = &material.detail;
         let opacity = &detail.opacity;
-        out.features.opacity |= !opacity.is_whole();
+        out.features.opacity |= !detail.stops_all();
         out.features.filter |= !opacity.is_whole() && opacity.filter != Value::Constant(Vec3::ONE);
         out.features.bump |= detail.bump.is_some();
         out.features.normal_map |= detail.normal_map.is_some();
@@ -47,7 +49,8 @@ fn record(scene: &Scene, detail: &scene::Detail, textures: &References) -> Detai
         filter_texture,
         filter_color: filter.to_array(),
         flags: flag(detail.soften_terminator, DETAIL_SOFT_TERMINATOR)
-            | flag(detail.keep_visible, DETAIL_VISIBLE),
+            | flag(detail.keep_visible, DETAIL_VISIBLE)
+            | flag(detail.sides == Sides::Front, DETAIL_FRONT_ONLY),
         height_texture: NONE,
         normal_texture: NONE,
         step_x: [1.0, 0.0],
@@ -60,6 +63,7 @@ fn record(scene: &Scene, detail: &scene::Detail, textures: &References) -> Detai
         record.flags |= flag(curvature, DETAIL_CURVATURE);
         let steps = steps(scene, texture, derivative);
         record.derivative = steps.rule;
+        record.flags |= flag(is_on_uv1(scene, texture), DETAIL_HEIGHT_UV1);
         let inverse = steps.texels_from_uv.inverse().matrix2;
         record.step_x = inverse.x_axis.as_vec2().to_array();
         record.step_y = inverse.y_axis.as_vec2().to_array();
@@ -69,6 +73,7 @@ fn record(scene: &Scene, detail: &scene::Detail, textures: &References) -> Detai
         record.normal_texture = textures.reference(texture);
         record.strength = strength;
         record.flags |= flag(green_down, DETAIL_GREEN_DOWN);
+        record.flags |= flag(is_on_uv1(scene, texture), DETAIL_NORMAL_UV1);
         record.flags |= flag(tangents == Tangents::MikkTSpace, DETAIL_VERTEX_TANGENTS);
     }
     record
@@ -111,13 +116,26 @@ fn picture(scene: &Scene, texture: Handle<Texture>) -> Option<DAffine2> {
     (map.matrix2.determinant().abs() > 1e-12).then_some(map)
 }
 
+/// Whether the first picture of a texture is placed by the second set of texture coordinates.
+pub(super) fn is_on_uv1(scene: &Scene, texture: Handle<Texture>) -> bool {
+    fn first_picture(scene: &Scene, texture: Handle<Texture>) -> Option<bool> {
+        let texture = &scene.textures[texture];
+        let second = matches!(texture, Texture::Mapped { mapping, .. } if mapping.kind == MappingKind::Uv1);
+        match texture {
+            Texture::Image(_) => Some(false),
+            _ => texture.inputs().find_map(|input| first_picture(scene, input)).map(|inner| inner || second),
+        }
+    }
+    first_picture(scene, texture).unwrap_or(false)
+}
+
 /// Which triangles of a mesh rays may go through, when it is placed with some materials; empty when none.
 pub(super) fn lets_through(
     scene: &Scene,
     mesh: &Mesh,
     placed_with: impl IntoIterator<Item = Handle<Material>>,
 ) -> Vec<bool> {
-    let open = |material: Handle<Material>| !scene.materials[material].detail.opacity.is_whole();
+    let open = |material: Handle<Material>| !scene.materials[material].detail.stops_all();
     let rest = placed_with.into_iter().map(open).fold(false, |any, open| any | open);
     let parts = mesh.parts.iter().filter_map(|part| part.material);
     if !rest && !parts.into_iter().any(open) {

@@ -4,7 +4,7 @@ use super::atlas::Reader;
 use super::textures::References;
 use super::{Prepared, alias};
 use crate::layout::EnvironmentCell;
-use crate::scene::{ColorSpace, Environment, Image, Scene, Texture, UvTransform};
+use crate::scene::{ColorSpace, DirectionMapping, Environment, Image, Scene, Texture, UvTransform};
 use std::f64::consts::PI;
 
 /// Most columns of the table. A wider image is averaged: the table only says where to look more often.
@@ -18,7 +18,9 @@ const EVEN_SHARE: f64 = 0.02;
 pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) {
     let Some(environment) = &scene.environment else { return };
     let Some(handle) = environment.texture() else { return };
+    let mapping = environment.mapping;
     out.features.environment_image = true;
+    out.features.environment_equal_area = mapping == DirectionMapping::EqualArea;
     out.environment_texture = textures.reference(handle);
     let weights = match &scene.textures[handle] {
         // A moved or scaled image is looked at evenly, as are other textures: right, if noisier.
@@ -26,9 +28,13 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
             let (texture, image) = (image, &scene.images[image.image]);
             let read = Reader { image, decode: texture.color_space == ColorSpace::Srgb };
             let size = [image.width.min(MOST_COLUMNS), image.height.clamp(1, MOST_COLUMNS / 2)];
-            weights(size, out, |column, row| cell(&read, image, column, size[1] - 1 - row, size))
+            out.environment_size = size;
+            weights(size, mapping, |column, row| cell(&read, image, column, size[1] - 1 - row, size))
         }
-        _ => weights(EVEN_CELLS, out, |_, _| 1.0),
+        _ => {
+            out.environment_size = EVEN_CELLS;
+            weights(EVEN_CELLS, mapping, |_, _| 1.0)
+        }
     };
     out.environment = alias::table(&weights)
         .into_iter()
@@ -37,19 +43,25 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
 }
 
 /// Brightness times solid angle of each cell, row by row, v growing with the row.
-fn weights(size: [u32; 2], out: &mut Prepared, brightness: impl Fn(u32, u32) -> f64) -> Vec<f64> {
-    out.environment_size = size;
-    let latitude = |row: u32| ((f64::from(row) + 0.5) / f64::from(size[1]) - 0.5) * PI;
-    let mut weights = Vec::with_capacity(size[0] as usize * size[1] as usize);
-    for row in 0..size[1] {
-        for column in 0..size[0] {
-            weights.push(brightness(column, row) * latitude(row).cos());
+fn weights(
+    [columns, rows]: [u32; 2],
+    mapping: DirectionMapping,
+    brightness: impl Fn(u32, u32) -> f64,
+) -> Vec<f64> {
+    let solid_angle = |row: u32| match mapping {
+        DirectionMapping::Equirectangular => (((f64::from(row) + 0.5) / f64::from(rows) - 0.5) * PI).cos(),
+        DirectionMapping::EqualArea => 1.0,
+    };
+    let mut weights = Vec::with_capacity(columns as usize * rows as usize);
+    for row in 0..rows {
+        for column in 0..columns {
+            weights.push(brightness(column, row) * solid_angle(row));
         }
     }
     let sum: f64 = weights.iter().sum();
-    let whole: f64 = (0..size[1]).map(|row| latitude(row).cos()).sum::<f64>() * f64::from(size[0]);
+    let whole: f64 = (0..rows).map(solid_angle).sum::<f64>() * f64::from(columns);
     for (i, weight) in weights.iter_mut().enumerate() {
-        let even = latitude(i as u32 / size[0]).cos() / whole;
+        let even = solid_angle(i as u32 / columns) / whole;
         *weight = (1.0 - EVEN_SHARE) * if sum > 0.0 { *weight / sum } else { 0.0 } + EVEN_SHARE * even;
     }
     weights
@@ -74,7 +86,7 @@ fn cell(read: &Reader<'_>, image: &Image, column: u32, row_from_top: u32, size: 
     sum / (f64::from(x1 - x0) * f64::from(y1 - y0))
 }
 
-/// The rotation of an environment as rows of the map from world directions to those of the image.
+/// The rotation of an environment as rows of the map from world directions to those of the texture.
 pub(crate) fn rows(environment: &Environment) -> [[f32; 3]; 3] {
     // The inverse of a rotation is its transpose: its rows are the columns of the rotation.
     let m = environment.world_from_environment;

@@ -9,7 +9,7 @@ use super::motion::{Motion, bounds_over_time};
 use super::places::{check_sizes, shape_frame};
 use super::triangles::{Extras, mirrors, push_triangles};
 use super::wide::Leaves;
-use super::{Prepared, rows};
+use super::{Prepared, corners, rows};
 use crate::layout::{
     self, INSTANCE_DEFAULT_UV, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_SOUP, INSTANCE_SPHERE,
     INSTANCE_TRIANGLE_LIGHTS, Instance, LEAF, LEAF_FIRST_MASK, LEAF_INSTANCE, NONE, Record, Triangle,
@@ -95,6 +95,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
     let Placing { placed, soup, tops, motions, deepest, .. } = placing;
     build_top(soup, tops, deepest, out)?;
     push_motions(scene, motions, out)?;
+    corners::put_behind_faces(out);
     Ok(placed)
 }
 

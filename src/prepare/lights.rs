@@ -3,9 +3,9 @@
 use super::geometry::{Placed, Source};
 use super::textures::References;
 use super::triangles::{mirrors, part_materials};
-use super::{Bounds, Prepared, alias};
+use super::{Bounds, Prepared, alias, punctual};
 use crate::layout::{
-    LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE, Light, NONE,
+    INSTANCE_MESH, LIGHT_DISK, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_TRIANGLE, LIGHT_TURNED, Light, NONE,
 };
 use crate::scene::{self, Emission, Handle, Mesh, Scene, ShapeKind, Value};
 use glam::{Affine3A, Vec2, Vec3};
@@ -13,9 +13,9 @@ use std::f64::consts::PI;
 
 /// A light before the table is built: its record and its power in watts; none for light from infinity. Powers of lights
 /// that floats can hold may be beyond floats.
-struct Entry {
-    light: Light,
-    power: Option<f64>,
+pub(super) struct Entry {
+    pub(super) light: Light,
+    pub(super) power: Option<f64>,
 }
 
 /// Where the camera is, at both ends of its motion.
@@ -81,14 +81,15 @@ pub(super) fn prepare(
         let entries = if place.moves { &mut found } else { &mut entries };
         match place.source {
             Source::Shape(i) => push_shape(scene, i, &place.world_from_object, textures, entries),
-            Source::Mesh(i) => push_mesh(scene, i, &place.world_from_object, textures, entries),
+            Source::Mesh(i) => push_mesh(scene, i, &place, textures, out, entries),
         }
         if !place.moves && entries.len() > first {
             out.instances[place.instance as usize].light = first as u32;
         }
     }
     let found = found.iter().map(whole).fold(0.0, f64::max);
-    entries.extend(scene.lights.iter().map(punctual));
+    entries.extend(scene.lights.iter().map(|light| punctual::entry(scene, textures, light)));
+    punctual::note(scene, &mut out.features);
     let environment = scene.environment.is_some();
     let lamps = entries.iter().filter_map(|entry| entry.power).sum::<f64>();
     let distant = entries.iter().filter(|entry| entry.power.is_none()).count();
@@ -119,27 +120,30 @@ pub(super) fn prepare(
 }
 
 /// Mean of a colour.
-fn mean(c: Vec3) -> f64 {
+pub(super) fn mean(c: Vec3) -> f64 {
     c.as_dvec3().element_sum() / 3.0
 }
 
 fn surface_light(
+    scene: &Scene,
     emission: &Emission,
     material: Handle<scene::Material>,
     textures: &References,
     kind: u32,
 ) -> (Light, f64) {
+    let two_sided = scene.materials[material].shines_behind();
     let (radiance, texture, brightness) = match emission.radiance {
         Value::Constant(c) => (c, NONE, mean(c)),
         Value::Texture(handle) => (Vec3::ONE, textures.reference(handle), textures.mean(handle)),
     };
-    let sides = if emission.two_sided { 2.0 } else { 1.0 };
+    let sides = if two_sided { 2.0 } else { 1.0 };
     let light = Light {
         kind,
         radiance: radiance.to_array(),
         texture,
-        two_sided: u32::from(emission.two_sided),
+        two_sided: u32::from(two_sided),
         material: material.index() as u32,
+        extra: NONE,
         ..Light::default()
     };
     (light, sides * PI * brightness)
@@ -153,7 +157,7 @@ fn push_shape(scene: &Scene, index: usize, map: &Affine3A, textures: &References
         ShapeKind::Disk { .. } => LIGHT_DISK,
         ShapeKind::Quad { .. } => LIGHT_QUAD,
     };
-    let (mut light, exitance) = surface_light(emission, shape.material, textures, kind);
+    let (mut light, exitance) = surface_light(scene, emission, shape.material, textures, kind);
     light.position = Vec3::from(map.translation).to_array();
     let m = &map.matrix3;
     let (x, y, z) = (Vec3::from(m.x_axis), Vec3::from(m.y_axis), Vec3::from(m.z_axis));
@@ -185,7 +189,15 @@ fn is_sphere(x: Vec3, y: Vec3, z: Vec3) -> bool {
 }
 
 /// One light a triangle, in the order of the mesh; those that do not shine keep their place with no power.
-fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References, entries: &mut Vec<Entry>) {
+fn push_mesh(
+    scene: &Scene,
+    index: usize,
+    place: &Placed,
+    textures: &References,
+    out: &Prepared,
+    entries: &mut Vec<Entry>,
+) {
+    let map = &place.world_from_object;
     let instance = &scene.instances[index];
     let mesh = &scene.meshes[instance.mesh];
     let shines = |material| scene.materials[material].emission.is_some();
@@ -193,10 +205,22 @@ fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References,
         return;
     }
     let materials = part_materials(mesh);
+    let record = &out.instances[place.instance as usize];
+    // A mesh in its own space has its corners in its own order, and a light as it is in the world
+    let turned = if record.kind == INSTANCE_MESH && mirrors(map) { LIGHT_TURNED } else { 0 };
+    let extra = |i: usize| {
+        let face =
+            if record.first_face == NONE { None } else { out.faces.get(record.first_face as usize + i) };
+        face.map_or(NONE, |face| if face.extra == NONE { NONE } else { face.extra | turned })
+    };
     for i in 0..mesh.triangles.len() {
         let material = materials.get(i).copied().flatten().unwrap_or(instance.material);
         entries.push(match &scene.materials[material].emission {
-            Some(emission) => triangle(mesh, i, map, (emission, material), textures),
+            Some(emission) => {
+                let mut entry = triangle(scene, mesh, i, map, (emission, material), textures);
+                entry.light.extra = extra(i);
+                entry
+            }
             None => Entry {
                 light: Light { kind: LIGHT_TRIANGLE, texture: NONE, ..Light::default() },
                 power: Some(0.0),
@@ -206,13 +230,14 @@ fn push_mesh(scene: &Scene, index: usize, map: &Affine3A, textures: &References,
 }
 
 fn triangle(
+    scene: &Scene,
     mesh: &Mesh,
     index: usize,
     map: &Affine3A,
     (emission, material): (&Emission, Handle<scene::Material>),
     textures: &References,
 ) -> Entry {
-    let (mut light, exitance) = surface_light(emission, material, textures, LIGHT_TRIANGLE);
+    let (mut light, exitance) = surface_light(scene, emission, material, textures, LIGHT_TRIANGLE);
     let mut corners = mesh.triangles[index];
     let mut default = [Vec2::ZERO, Vec2::X, Vec2::ONE];
     if mirrors(map) {
@@ -228,46 +253,6 @@ fn triangle(
     light.uv0 = uv(0).to_array();
     (light.uv1, light.uv2) = ((uv(1) - uv(0)).to_array(), (uv(2) - uv(0)).to_array());
     Entry { power: Some(exitance * area), light }
-}
-
-fn punctual(light: &scene::Light) -> Entry {
-    let base = Light { texture: NONE, ..Light::default() };
-    match light {
-        scene::Light::Point { position, intensity } => Entry {
-            light: Light {
-                kind: LIGHT_POINT,
-                position: position.to_array(),
-                radiance: intensity.to_array(),
-                ..base
-            },
-            power: Some(4.0 * PI * mean(*intensity)),
-        },
-        scene::Light::Spot { position, direction, intensity, cone_angle, falloff_angle } => {
-            let inner = (cone_angle - falloff_angle).to_radians().cos();
-            let outer = cone_angle.to_radians().cos();
-            Entry {
-                light: Light {
-                    kind: LIGHT_SPOT,
-                    position: position.to_array(),
-                    edge_u: direction.to_array(),
-                    radiance: intensity.to_array(),
-                    a: inner,
-                    b: outer,
-                    ..base
-                },
-                power: Some(2.0 * PI * (1.0 - 0.5 * f64::from(inner + outer)) * mean(*intensity)),
-            }
-        }
-        scene::Light::Distant { direction, irradiance } => Entry {
-            light: Light {
-                kind: LIGHT_DISTANT,
-                edge_u: direction.to_array(),
-                radiance: irradiance.to_array(),
-                ..base
-            },
-            power: None,
-        },
-    }
 }
 
 #[cfg(test)]

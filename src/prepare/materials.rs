@@ -26,7 +26,7 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
         out.features.mix_depth = out.features.mix_depth.max(depth);
         let mut builder = Builder { textures, features: &mut out.features, record: empty() };
         builder.surface(&material.surface);
-        builder.emission(material.emission.as_ref());
+        builder.emission(material);
         let record = builder.record;
         out.features.material_kinds |= 1 << record.head.kind;
         out.materials.push(record);
@@ -126,10 +126,10 @@ impl Builder<'_> {
         self.put(INPUT_MIX, bytemuck::cast(MixInput { amount, amount_texture, first, second }));
     }
 
-    fn emission(&mut self, emission: Option<&scene::Emission>) {
-        let Some(emission) = emission else { return };
+    fn emission(&mut self, material: &scene::Material) {
+        let Some(emission) = &material.emission else { return };
         self.color(INPUT_EMISSION, &emission.radiance);
-        self.record.head.flags |= if emission.two_sided { MATERIAL_TWO_SIDED } else { 0 };
+        self.record.head.flags |= if material.shines_behind() { MATERIAL_TWO_SIDED } else { 0 };
     }
 
     fn kind(&mut self, kind: u32) {

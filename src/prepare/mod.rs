@@ -6,6 +6,7 @@ mod alias;
 mod atlas;
 mod bounds;
 pub mod bvh;
+mod corners;
 mod details;
 mod displace;
 mod environment;
@@ -15,7 +16,9 @@ mod lights;
 mod materials;
 mod medium;
 mod motion;
+mod pixel_filter;
 mod places;
+mod punctual;
 mod pyramid;
 mod tangents;
 mod textures;
@@ -46,6 +49,8 @@ pub struct Prepared {
     pub triangle_count: usize,
     /// Vertices of triangles, each mesh's in its own order.
     pub faces: Vec<Face>,
+    /// Words behind the faces: what only textures ask of the corners of triangles.
+    pub corners: Vec<[u32; 4]>,
     /// Shading data of vertices.
     pub vertices: Vec<Vertex>,
     /// Shapes and meshes in the world.
@@ -102,6 +107,7 @@ impl Prepared {
         let sizes = [
             size_of_val(self.tree.as_slice()),
             size_of_val(self.faces.as_slice()),
+            size_of_val(self.corners.as_slice()),
             size_of_val(self.vertices.as_slice()),
             size_of_val(self.instances.as_slice()),
             size_of_val(self.motions.as_slice()),
@@ -144,6 +150,12 @@ pub struct Features {
     pub environment: bool,
     /// An environment from a picture.
     pub environment_image: bool,
+    /// Its picture is an equal-area map.
+    pub environment_equal_area: bool,
+    /// A light without extent that has a texture.
+    pub textured_lights: bool,
+    /// One whose texture is an equal-area map of its directions.
+    pub equal_area_lights: bool,
     /// Inputs of materials that a texture drives: two bits for each `INPUT_…`, for a colour or the first number, and for the
     /// second number.
     pub textured_inputs: u32,
@@ -171,6 +183,10 @@ pub struct Features {
     pub medium: bool,
     /// A texture that depends on the width of a pixel.
     pub footprint: bool,
+    /// A texture that depends on the colours of vertices.
+    pub vertex_color: bool,
+    /// A texture that depends on the second set of texture coordinates.
+    pub uv1: bool,
     /// A texture that depends on the time.
     pub timed_textures: bool,
     /// Things that move.
@@ -203,6 +219,7 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
         out.camera_medium = medium::around_camera(scene);
     }
     lens::prepare(scene, &mut out)?;
+    pixel_filter::prepare(&scene.film.filter, &mut out.lens)?;
     units::choose(scene, &textures, &receivers, lamps, &mut out);
     Ok(out)
 }

@@ -1,27 +1,34 @@
 //! Tangents of meshes for normal maps.
 
+use super::details::is_on_uv1;
+use super::triangles::part_materials;
 use crate::scene::{Handle, Material, Mesh, Scene, Tangents};
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// Tangents of the corners of triangles, and the side on which the bitangent is: 1 or −1 times normal × tangent.
 pub(super) type CornerTangents = Vec<[(Vec3, f32); 3]>;
 
-/// Tangents by MikkTSpace (Mikkelsen 2008), when a mesh has uv and is placed with a normal map that wants them.
+/// Tangents by MikkTSpace (Mikkelsen 2008), when a mesh has uv and is placed with a normal map that wants them. They are those of the
+/// set of texture coordinates by which the map is placed: that of the material of a triangle, or of the first that it is placed with.
 pub(super) fn of(
     scene: &Scene,
     mesh: &Mesh,
     placed_with: impl IntoIterator<Item = Handle<Material>>,
 ) -> Option<CornerTangents> {
-    let wants = |material: Handle<Material>| {
-        let map = scene.materials[material].detail.normal_map;
-        map.is_some_and(|map| map.tangents == Tangents::MikkTSpace)
+    let uvs = |material: Handle<Material>| {
+        let map = scene.materials[material].detail.normal_map?;
+        let second = !mesh.uvs1.is_empty() && is_on_uv1(scene, map.texture);
+        let uvs = if second { &mesh.uvs1 } else { &mesh.uvs };
+        (map.tangents == Tangents::MikkTSpace && !uvs.is_empty()).then_some(uvs.as_slice())
     };
+    let rest = placed_with.into_iter().find_map(uvs);
     let parts = mesh.parts.iter().filter_map(|part| part.material);
-    if mesh.uvs.is_empty() || !parts.chain(placed_with).any(wants) {
-        return None;
-    }
-    let mut corners = Corners { mesh, tangents: vec![[(Vec3::ZERO, 1.0); 3]; mesh.triangles.len()] };
+    let any = rest.or(parts.into_iter().find_map(uvs))?;
+    let own = part_materials(mesh);
+    let of = |i: usize| own.get(i).copied().flatten().map_or(rest, uvs).unwrap_or(any);
+    let uvs = (0..mesh.triangles.len()).map(of).collect();
+    let mut corners = Corners { mesh, uvs, tangents: vec![[(Vec3::ZERO, 1.0); 3]; mesh.triangles.len()] };
     // The error has no cases
     generate_tangents(&mut corners).ok()?;
     Some(corners.tangents)
@@ -29,6 +36,8 @@ pub(super) fn of(
 
 struct Corners<'a> {
     mesh: &'a Mesh,
+    /// Those of the vertices, for each triangle.
+    uvs: Vec<&'a [Vec2]>,
     tangents: CornerTangents,
 }
 
@@ -60,7 +69,7 @@ impl Geometry for Corners<'_> {
     }
 
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
-        self.mesh.uvs[self.vertex(face, corner)].to_array()
+        self.uvs[face][self.vertex(face, corner)].to_array()
     }
 
     fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {

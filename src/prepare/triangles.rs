@@ -1,8 +1,8 @@
 //! Meshes to records of triangles, with the shading data of their vertices.
 
-use super::Prepared;
 use super::details::lets_through;
 use super::tangents::{self, CornerTangents};
+use super::{Prepared, corners};
 use crate::layout::{Face, NONE, PRIMITIVE_LETS_THROUGH, Triangle, Vertex};
 use crate::scene::{Handle, Material, Mesh, Scene};
 use glam::{Affine3A, Mat3A, Vec2, Vec3};
@@ -42,16 +42,17 @@ pub(super) fn push_triangles(
     triangles: &mut Vec<Triangle>,
 ) -> u32 {
     let mirrored = mirrors(map);
-    let has_vertices = !mesh.normals.is_empty() || !mesh.uvs.is_empty();
+    let has_extra = corners::has(mesh, &out.features);
+    let has_vertices = has_extra || !mesh.normals.is_empty() || !mesh.uvs.is_empty();
     let (first_face, first_vertex) = (out.faces.len() as u32, out.vertices.len() as u32);
     if has_vertices {
         push_vertices(mesh, map, extras.tangents.as_ref(), out);
     }
     let materials = part_materials(mesh);
     triangles.reserve(mesh.triangles.len());
-    for (i, corners) in mesh.triangles.iter().enumerate() {
+    for (i, vertices) in mesh.triangles.iter().enumerate() {
         let order = if mirrored { [0, 2, 1] } else { [0, 1, 2] };
-        let [a, b, c] = order.map(|k| corners[k]);
+        let [a, b, c] = order.map(|k| vertices[k]);
         let position = |v: u32| map.transform_point3(mesh.positions[v as usize]).to_array();
         if has_vertices {
             // With tangents each corner has a vertex of its own
@@ -59,7 +60,11 @@ pub(super) fn push_triangles(
                 Some(_) => order.map(|k| (3 * i + k) as u32),
                 None => [a, b, c],
             };
-            out.faces.push(Face { vertices: vertices.map(|v| first_vertex + v), spare: 0 });
+            let extra = if has_extra { out.corners.len() as u32 } else { NONE };
+            if has_extra {
+                out.corners.extend(corners::words(mesh, i, order, &out.features));
+            }
+            out.faces.push(Face { vertices: vertices.map(|v| first_vertex + v), extra });
         }
         let through = if extras.lets_through.get(i) == Some(&true) { PRIMITIVE_LETS_THROUGH } else { 0 };
         triangles.push(Triangle {

@@ -1,7 +1,7 @@
 //! Units of the fixed-point sums of the film.
 
-use super::{Bounds, Prepared, textures};
-use crate::layout::{LIGHT_DISTANT, LIGHT_POINT, LIGHT_SPOT, Light};
+use super::{Bounds, Prepared, punctual, textures};
+use crate::layout::{LIGHT_DISTANT, LIGHT_POINT, LIGHT_PROJECTION, LIGHT_SPOT, Light};
 use crate::scene::{Scene, Surface, Value};
 use glam::Vec3;
 
@@ -32,8 +32,12 @@ pub(super) fn choose(
     });
     let emitted = scene.materials.iter().filter_map(|(_, _, material)| material.emission.as_ref());
     let size = out.bounds.diagonal().max(f32::MIN_POSITIVE);
-    let punctual =
-        out.lights.iter().map(|light| punctual_radiance(light, scene.camera.position, size, receivers));
+    // They are the last of the table, unless nothing in it shines
+    let first = out.lights.len().saturating_sub(scene.lights.len());
+    let punctual = scene.lights.iter().zip(&out.lights[first..]).map(|(light, record)| {
+        let most = of(&light.intensity) * punctual::scale(scene, textures, light);
+        punctual_radiance(most, record, scene.camera.position, size, receivers)
+    });
     let lit = punctual.chain(unlit).fold(environment.max(1.0), f32::max);
     let brightest = emitted.map(|emission| of(&emission.radiance)).fold(lit, f32::max);
     let lit = lit.max(lamps.min(f64::from(f32::MAX)) as f32);
@@ -51,14 +55,13 @@ pub(super) fn choose(
     out.depth_exponent = (far.log2().ceil() as i32 - STEPS_TO_FAR).clamp(-60, 60);
 }
 
-/// What a light without extent brings to a sample near it. Near is a quarter of the distance at which the camera is
+/// What a light without extent of this intensity at most brings to a sample near it. Near is a quarter of the distance at which the camera is
 /// likely to look: as far from the light as the camera is, but between 1/64 and 1/8 of the scene; farther where nothing is
-/// so near. A sample stands for all lights, so a light that is rarely chosen counts for more. 0 for surfaces, whose samples
-/// are weighed against the BSDF and stay near their radiance.
-fn punctual_radiance(light: &Light, camera: Vec3, size: f32, receivers: &Bounds) -> f32 {
-    let all = Vec3::from(light.radiance).max_element() / light.chance.max(1e-9);
+/// so near. A sample stands for all lights, so a light that is rarely chosen counts for more.
+fn punctual_radiance(intensity: f32, light: &Light, camera: Vec3, size: f32, receivers: &Bounds) -> f32 {
+    let all = intensity / light.chance.max(1e-9);
     match light.kind {
-        LIGHT_POINT | LIGHT_SPOT => {
+        LIGHT_POINT | LIGHT_SPOT | LIGHT_PROJECTION => {
             let position = light.position.into();
             let distance = 0.25 * camera.distance(position).clamp(size / 64.0, size / 8.0);
             let distance = distance.max(receivers.distance(position));

@@ -2,9 +2,9 @@
 
 use super::{Features, Prepared};
 use crate::layout::{
-    Backend, INPUT_EMISSION, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPOT,
-    LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG,
-    MATERIAL_PRINCIPLED, STACK_ENTRIES,
+    Backend, INPUT_EMISSION, LIGHT_DISK, LIGHT_DISTANT, LIGHT_POINT, LIGHT_PROJECTION, LIGHT_QUAD,
+    LIGHT_SPHERE, LIGHT_SPOT, LIGHT_TRIANGLE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE,
+    MATERIAL_PHONG, MATERIAL_PRINCIPLED, STACK_ENTRIES,
 };
 use crate::scene::{FilterKind, FisheyeMapping, Focus, Opening, Projection, Sampler, Scene};
 use std::collections::BTreeMap;
@@ -100,12 +100,8 @@ const SAMPLERS: [(&str, Sampler); 5] = [
     ("SAMPLER_SOBOL", Sampler::Sobol),
 ];
 
-const FILTERS: [(&str, FilterKind); 4] = [
-    ("FILTER_BOX", FilterKind::Box),
-    ("FILTER_TENT", FilterKind::Tent),
-    ("FILTER_GAUSSIAN", FilterKind::Gaussian),
-    ("FILTER_BLACKMAN_HARRIS", FilterKind::BlackmanHarris),
-];
+const FILTERS: [&str; 5] =
+    ["FILTER_BOX", "FILTER_TENT", "FILTER_GAUSSIAN", "FILTER_BLACKMAN_HARRIS", "FILTER_TABLE"];
 
 const CAMERAS: [&str; 5] =
     ["CAMERA_PERSPECTIVE", "CAMERA_ORTHOGRAPHIC", "CAMERA_EQUIRECTANGULAR", "CAMERA_FISHEYE", "CAMERA_LENS"];
@@ -185,12 +181,17 @@ pub fn defines(
     }
     let features = &prepared.features;
     if stage == Stage::Camera {
-        for (i, (name, kind)) in FILTERS.iter().enumerate() {
+        for (i, name) in FILTERS.iter().enumerate() {
             set(name, i.to_string());
-            if *kind == scene.film.filter.kind {
-                set("FILTER", i.to_string());
-            }
         }
+        let filter = match scene.film.filter.kind {
+            FilterKind::Box => 0,
+            FilterKind::Tent => 1,
+            FilterKind::Gaussian => 2,
+            FilterKind::BlackmanHarris => 3,
+            FilterKind::Mitchell { .. } | FilterKind::Sinc { .. } => 4,
+        };
+        set("FILTER", filter.to_string());
         camera(scene, &mut set);
     }
     let mut flag = |name: &str, on: bool| {
@@ -198,6 +199,8 @@ pub fn defines(
             _ = all.insert(name.to_owned(), "1".to_owned());
         }
     };
+    let signed = matches!(scene.film.filter.kind, FilterKind::Mitchell { .. } | FilterKind::Sinc { .. });
+    flag("SIGNED_FILTER", stage == Stage::Film && signed);
     flag("HAS_TIME", has_time(features, stage));
     flag("HAS_MOTION", features.moves && (stage.traverses() || stage == Stage::Shade));
     flag("MOVING_CAMERA", features.camera_moves && matches!(stage, Stage::Camera | Stage::Shade));
@@ -208,6 +211,10 @@ pub fn defines(
         flag("HAS_DISKS", features.disks);
         flag("HAS_OPACITY", features.opacity);
         flag("HAS_FILTER", features.filter);
+    }
+    if stage.traverses() || matches!(stage, Stage::Shade | Stage::Evaluate) {
+        flag("HAS_VERTEX_COLOR", features.vertex_color);
+        flag("HAS_UV1", features.uv1);
     }
     if stage == Stage::Shade {
         let material = |kind: u32| features.material_kinds & 1 << kind != 0;
@@ -233,12 +240,16 @@ pub fn defines(
         flag("HAS_LIGHT_POINT", light(LIGHT_POINT));
         flag("HAS_LIGHT_SPOT", light(LIGHT_SPOT));
         flag("HAS_LIGHT_DISTANT", light(LIGHT_DISTANT));
+        flag("HAS_LIGHT_PROJECTION", light(LIGHT_PROJECTION));
+        flag("TEXTURED_LIGHTS", features.textured_lights);
+        flag("EQUAL_AREA_LIGHTS", features.equal_area_lights);
         flag("HAS_LIGHT_SPHERE", light(LIGHT_SPHERE));
         flag("HAS_LIGHT_QUAD", light(LIGHT_QUAD));
         flag("HAS_LIGHT_DISK", light(LIGHT_DISK));
         flag("HAS_LIGHT_TRIANGLE", light(LIGHT_TRIANGLE));
         flag("HAS_ENVIRONMENT", features.environment);
         flag("ENVIRONMENT_IMAGE", features.environment_image);
+        flag("ENVIRONMENT_EQUAL_AREA", features.environment_equal_area);
         flag("ROULETTE", scene.render.russian_roulette);
         flag("GEOMETRIC_VETO", scene.render.geometric_veto);
         // Without an environment there is nothing to leave out: one variant less.

@@ -27,6 +27,8 @@ pub(super) fn of_scene(scene: &Scene, prepared: &Prepared) -> Frame {
         opening_half: opening.half_size(),
         opening_size: prepared.lens.opening_size,
         opening_cells: prepared.lens.opening_cells,
+        filter_cells: prepared.lens.filter_cells,
+        filter_weight: prepared.lens.filter_weight,
         ..Frame::default()
     };
     match &camera.projection {

@@ -4,7 +4,7 @@ use super::kernels::key;
 use super::threads_of;
 use crate::gpu::{Bindings, Buffer, Command, Gpu, Pipeline, Place};
 use crate::layout::{Backend, Frame, Record as _, TexturePoint, WORD_BYTES, WORKGROUP};
-use crate::prepare::{self, Prepared, Stage, prepare_textures};
+use crate::prepare::{self, Features, Prepared, Stage, prepare_textures};
 use crate::scene::{Handle, Scene, Texture};
 use crate::shader::Compiler;
 use crate::{Error, Result};
@@ -41,7 +41,10 @@ impl Evaluator {
     ) -> Result<Self> {
         let textures = prepare_textures(scene, asked)?;
         compiler.sources_mut().set_virtual("generated/textures.glsl", textures.glsl.as_str())?;
-        let kernel = compiler.kernel(&key(scene, &Prepared::default(), Stage::Evaluate, backend))?;
+        let features =
+            Features { vertex_color: textures.vertex_color, uv1: textures.uv1, ..Features::default() };
+        let prepared = Prepared { features, ..Prepared::default() };
+        let kernel = compiler.kernel(&key(scene, &prepared, Stage::Evaluate, backend))?;
         let layout = gpu.layout(backend)?;
         let pipeline = gpu.pipeline(&layout, &kernel)?;
         let point_bytes = MOST_POINTS as u64 * u64::from(TexturePoint::WORDS) * WORD_BYTES;

@@ -21,7 +21,13 @@ impl Resident {
             Ok(())
         };
         put("tree", bytemuck::cast_slice(&std::mem::take(&mut prepared.tree)))?;
-        put("faces", bytemuck::cast_slice(&std::mem::take(&mut prepared.faces)))?;
+        let (faces, corners) = (std::mem::take(&mut prepared.faces), std::mem::take(&mut prepared.corners));
+        let faces: &[u8] = bytemuck::cast_slice(&faces);
+        if corners.is_empty() {
+            put("faces", faces)?;
+        } else {
+            put("faces", &[faces, bytemuck::cast_slice(&corners)].concat())?;
+        }
         let instances: &[u8] = bytemuck::cast_slice(&prepared.instances);
         put("instances", &[instances, bytemuck::cast_slice(&prepared.motions)].concat())?;
         put("vertices", bytemuck::cast_slice(&std::mem::take(&mut prepared.vertices)))?;

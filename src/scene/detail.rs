@@ -35,6 +35,16 @@ impl Opacity {
     }
 }
 
+/// From where a surface is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Sides {
+    /// From both sides.
+    #[default]
+    Both,
+    /// From its front: what meets it from behind goes straight through (glTF 2.0, `doubleSided = false`).
+    Front,
+}
+
 /// How the derivative of a height is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Derivative {
@@ -88,6 +98,8 @@ pub struct NormalMap {
 pub struct Detail {
     /// How much of it is there.
     pub opacity: Opacity,
+    /// From where it is there.
+    pub sides: Sides,
     /// Bumps, on top of a normal map where there are both.
     pub bump: Option<Bump>,
     /// Normals from a picture.
@@ -100,7 +112,20 @@ pub struct Detail {
 
 impl Default for Detail {
     fn default() -> Self {
-        let opacity = Opacity::default();
-        Self { opacity, bump: None, normal_map: None, soften_terminator: true, keep_visible: true }
+        Self {
+            opacity: Opacity::default(),
+            sides: Sides::Both,
+            bump: None,
+            normal_map: None,
+            soften_terminator: true,
+            keep_visible: true,
+        }
+    }
+}
+
+impl Detail {
+    /// Whether no ray goes straight through.
+    pub fn stops_all(&self) -> bool {
+        self.opacity.is_whole() && self.sides == Sides::Both
     }
 }

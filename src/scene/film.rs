@@ -36,8 +36,8 @@ impl Rect {
     }
 }
 
-/// Shape of the pixel filter (pbrt-v4, section 8.8). All are sampled in proportion to their value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Shape of the pixel filter (pbrt-v4, section 8.8). All are sampled in proportion to their magnitude.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FilterKind {
     /// Constant within the radius.
     Box,
@@ -47,6 +47,45 @@ pub enum FilterKind {
     Gaussian,
     /// Blackman-Harris window over the radius.
     BlackmanHarris,
+    /// Two cubics, the outer one negative in part, over twice the half of the radius (Mitchell and Netravali 1988).
+    Mitchell {
+        /// Blur, 0 to 1.
+        b: f32,
+        /// Ringing, 0 to 1.
+        c: f32,
+    },
+    /// sinc(x) · sinc(x / tau), x in pixels, cut off at the radius (Lanczos).
+    Sinc {
+        /// Width of the window, pixels.
+        tau: f32,
+    },
+}
+
+impl FilterKind {
+    /// Value at a distance of `x` of the radius, 0 to 1, for those kinds that may be negative; none for the others.
+    pub fn signed_value(self, x: f64, radius: f64) -> Option<f64> {
+        match self {
+            Self::Mitchell { b, c } => Some(mitchell(2.0 * x, b.into(), c.into())),
+            Self::Sinc { tau } => Some(sinc(x * radius) * sinc(x * radius / f64::from(tau))),
+            Self::Box | Self::Tent | Self::Gaussian | Self::BlackmanHarris => None,
+        }
+    }
+}
+
+/// The filter of Mitchell and Netravali (1988, equation 8) for 0 ≤ x ≤ 2.
+fn mitchell(x: f64, b: f64, c: f64) -> f64 {
+    let cubic = if x < 1.0 {
+        [12.0 - 9.0 * b - 6.0 * c, -18.0 + 12.0 * b + 6.0 * c, 0.0, 6.0 - 2.0 * b]
+    } else {
+        [-b - 6.0 * c, 6.0 * b + 30.0 * c, -12.0 * b - 48.0 * c, 8.0 * b + 24.0 * c]
+    };
+    cubic.iter().fold(0.0, |sum, factor| sum * x + factor) / 6.0
+}
+
+/// sin(π x) / (π x).
+fn sinc(x: f64) -> f64 {
+    let angle = std::f64::consts::PI * x;
+    if angle.abs() < 1e-6 { 1.0 } else { angle.sin() / angle }
 }
 
 /// Pixel reconstruction filter, separable.

@@ -1,7 +1,7 @@
 //! Meshes, analytic shapes and their places in the world.
 
 use super::{Displacement, Handle, Material};
-use glam::{Affine3A, Mat3A, Vec2, Vec3};
+use glam::{Affine3A, Mat3A, Vec2, Vec3, Vec4};
 use std::ops::Range;
 
 /// A run of triangles of a mesh that share a material.
@@ -24,6 +24,10 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, one a vertex, v upward; empty = (0,0), (1,0), (1,1) on every triangle.
     pub uvs: Vec<Vec2>,
+    /// A second set of them; empty = as `uvs`.
+    pub uvs1: Vec<Vec2>,
+    /// Linear colours with alpha, one a vertex; empty = white.
+    pub colors: Vec<Vec4>,
     /// Three vertex indices a triangle, all below `positions.len()`.
     pub triangles: Vec<[u32; 3]>,
     /// Parts that cover `triangles` without overlap, in order.

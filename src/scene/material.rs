@@ -1,6 +1,6 @@
 //! Materials: what a surface does with light.
 
-use super::{Detail, Handle, Store, Texture, Value};
+use super::{Detail, Handle, Sides, Store, Texture, Value};
 use glam::Vec3;
 
 /// How the reflectance of a conductor depends on the angle.
@@ -182,7 +182,7 @@ pub enum Surface {
 pub struct Emission {
     /// Radiance, W/(m² sr).
     pub radiance: Value<Vec3>,
-    /// From the back too.
+    /// From the back too, where the surface is there from the back.
     pub two_sided: bool,
 }
 
@@ -201,6 +201,11 @@ impl Material {
     /// A material whose surface is whole and smooth.
     pub fn new(surface: Surface, emission: Option<Emission>) -> Self {
         Self { surface, emission, detail: Detail::default() }
+    }
+
+    /// Whether light goes out from the back too.
+    pub fn shines_behind(&self) -> bool {
+        self.emission.as_ref().is_some_and(|emission| emission.two_sided) && self.detail.sides == Sides::Both
     }
 
     /// Most mixes on the way from a material to one that is no mix.

@@ -18,12 +18,13 @@ pub use camera::{
     Aperture, Camera, FisheyeMapping, Focus, FovAxis, Lens, LensCamera, LensInterface, LensSystem, Measure,
     Opening, Paraxial, Perspective, Projection, Pupil, Stand, Stop, half_height,
 };
-pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents};
+pub use detail::{Bump, Derivative, Detail, NormalMap, Opacity, Sides, Tangents};
 pub use displacement::{Displacement, DisplacementDirection, EdgeLimit};
 pub use exposure::{Exposure, Meter, Shot, ToneCurve};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
-pub use light::{Environment, Light};
+pub(crate) use light::half_frustum;
+pub use light::{DirectionMapping, Environment, Light, LightKind, Strength, facing};
 pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Mix, Principled, Roughness, Surface};
 pub use store::{Handle, Store};
 pub use texture::glsl;

@@ -7,6 +7,7 @@
 mod bake;
 mod bench;
 mod checks;
+mod diff;
 mod errors;
 mod pictures;
 mod stopping;

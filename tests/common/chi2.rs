@@ -1,6 +1,6 @@
 //! Pearson's chi-square test: whether counts follow a distribution.
 
-use super::student::level_of_each;
+use dapple::diff::level_of_each;
 
 /// The level at which all chi-square tests of a test function together fail by chance.
 const LEVEL: f64 = 0.01;

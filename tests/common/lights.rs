@@ -2,7 +2,7 @@
 
 use super::probe::{Probe, Word, as_doubles, floats, three, vector};
 use super::random::Random;
-use super::twins::math::{cross, length, wide};
+use super::twins::math::{cross, dot, length, normalize, sub, wide};
 use dapple::layout::{LIGHT_DISK, LIGHT_SPHERE, LIGHT_TRIANGLE, Light, NONE};
 use std::f64::consts::PI;
 
@@ -36,10 +36,7 @@ pub fn samples(light: &Light, from: [f32; 3], count: usize) -> Vec<Sample> {
             Light light = probe_light();
             vec3 from = uintBitsToFloat(fetch_points(7u).xyz);
             LightSample s = light_sample_one(light, from, uintBitsToFloat(fetch_points(8u + i).xy));
-            float pdf = 0.0;
-            if (light.kind == LIGHT_SPHERE) pdf = sphere_light_pdf(light, from, s.point, s.normal);
-            else if (light.kind == LIGHT_QUAD) pdf = quad_light_pdf(light, from, s.point, s.normal);
-            else pdf = flat_light_pdf(light, from, s.point, s.normal);
+            float pdf = light_pdf_one(light, from, s.point, s.normal);
             store_values(3u * i, floatBitsToUint(vec4(s.wi, s.pdf)));
             store_values(3u * i + 1u, floatBitsToUint(vec4(s.point, pdf)));
             store_values(3u * i + 2u, floatBitsToUint(vec4(s.normal, s.radiance.x)));
@@ -89,4 +86,46 @@ pub fn flat(kind: u32, position: [f32; 3], edge_u: [f32; 3], edge_v: [f32; 3]) -
         _ => 1.0,
     };
     Light { position, edge_u, edge_v, a: 1.0, b: (area * share) as f32, ..light(kind) }
+}
+
+/// Checks what holds for every point on a surface light, and gives the mean of 1 / pdf over all samples.
+pub fn check(
+    place: &str,
+    light: &Light,
+    from: [f32; 3],
+    all: &[Sample],
+    normal_at: impl Fn([f64; 3]) -> [f64; 3],
+) -> f64 {
+    let from = wide(from);
+    let mut sum = 0.0;
+    for s in all.iter().filter(|s| s.pdf > 0.0) {
+        let to = sub(s.point, from);
+        let reach = length(s.point).max(length(from));
+        assert!(
+            length(sub(normalize(to), s.wi)) < 2e-6 * (1.0 + reach / length(to)),
+            "{place}: wi {:?}",
+            s.wi
+        );
+        let normal = normal_at(s.point);
+        let side = dot(s.normal, normal);
+        assert!((side.abs() - 1.0).abs() < 1e-4, "{place}: normal {:?}, not {normal:?}", s.normal);
+        assert!(light.two_sided != 0 || side > 0.0, "{place}: the back of the light is seen");
+        // Seen from `from`; a grazing point may be on either side of its horizon by rounding
+        assert!(dot(s.normal, s.wi) < 1e-3, "{place}: {:?} looks away", s.point);
+        assert_eq!(s.radiance, f64::from(light.radiance[0]), "{place}");
+        // The same formula of the same point; where it grazes the surface, the cosine keeps few digits
+        let grazing = 2e-6 / dot(normal, s.wi).abs().max(1e-6);
+        assert!((s.pdf_again / s.pdf - 1.0).abs() < 1e-4 + grazing, "{place}: {} and {}", s.pdf, s.pdf_again);
+        sum += 1.0 / s.pdf;
+    }
+    sum / all.len() as f64
+}
+
+/// |mean of 1 / pdf − solid angle| within `relative`, or four standard errors of samples whose 1 / pdf spreads.
+pub fn expect_solid_angle(place: &str, all: &[Sample], mean: f64, solid_angle: f64, relative: f64) {
+    let n = all.len() as f64;
+    let squares: f64 = all.iter().filter(|s| s.pdf > 0.0).map(|s| s.pdf.powi(-2)).sum();
+    let sigma = ((squares / n - mean * mean).max(0.0) / n).sqrt();
+    let tolerance = relative * solid_angle + 4.0 * sigma;
+    assert!((mean - solid_angle).abs() < tolerance, "{place}: {mean} ± {sigma}, not {solid_angle}");
 }

@@ -2,7 +2,6 @@
 #![allow(dead_code, reason = "each test program compiles all of it and uses some")]
 
 pub mod chi2;
-pub mod compare;
 pub mod directions;
 pub mod lights;
 pub mod patterns;
@@ -11,5 +10,4 @@ pub mod probe;
 pub mod random;
 pub mod references;
 pub mod render;
-pub mod student;
 pub mod twins;

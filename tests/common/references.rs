@@ -1,17 +1,7 @@
-//! Pictures with the variance of their means: read from OpenEXR files, listed from `../shared/reference`.
+//! Converged pictures by other renderers, in `../shared/reference`.
 
+use dapple::diff::{Estimate, read, read_variance};
 use std::path::{Path, PathBuf};
-
-use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
-
-/// Means of the pixels, row by row from the top, and the variances of these means; red, green, blue.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Estimate {
-    pub width: usize,
-    pub height: usize,
-    pub mean: Vec<[f64; 3]>,
-    pub variance: Vec<[f64; 3]>,
-}
 
 /// A converged picture by another renderer.
 #[derive(Debug, Clone)]
@@ -69,45 +59,16 @@ pub fn reference(folder: &Path, renderer: &str, name: &str) -> Result<Reference,
         _ => return Err(format!("no references by `{renderer}`")),
     };
     let file = |suffix: &str| folder.join(renderer).join(format!("{name}{suffix}.exr"));
-    let (width, height, mean) = layer(&file(""), "")?;
-    let (variance_width, variance_height, mut variance) = layer(&file("_var"), "")?;
-    if (variance_width, variance_height) != (width, height) {
-        return Err(format!("{name}: mean and variance differ in size"));
-    }
-    variance.iter_mut().flatten().for_each(|v| *v = v.max(0.0));
-    let picture = Estimate { width, height, mean, variance };
+    let mut picture = read(&file("")).map_err(|error| error.to_string())?.estimate;
+    picture.variance = read_variance(&file("_var")).map_err(|error| error.to_string())?;
     Ok(Reference { name: name.to_string(), systematic, picture })
 }
 
 /// A picture of dapple: its means, and its layer `variance`.
 pub fn rendered(file: &Path) -> Result<Estimate, String> {
-    let (width, height, mean) = layer(file, "")?;
-    let (_, _, variance) = layer(file, "variance.")?;
-    Ok(Estimate { width, height, mean, variance })
-}
-
-/// Width, height and pixels of the channels R, G and B with a prefix.
-fn layer(file: &Path, prefix: &str) -> Result<(usize, usize, Vec<[f64; 3]>), String> {
-    let image = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes()
-        .from_file(file)
-        .map_err(|e| format!("{}: {e}", file.display()))?;
-    let layer = image.layer_data;
-    let mut pixels = vec![[0.0; 3]; layer.size.area()];
-    for (c, name) in ["R", "G", "B"].iter().enumerate() {
-        let name = format!("{prefix}{name}");
-        let channel = layer.channel_data.list.iter().find(|channel| channel.name == *name.as_str());
-        let channel = channel.ok_or_else(|| format!("{}: no channel {name}", file.display()))?;
-        match &channel.sample_data {
-            FlatSamples::F32(values) => {
-                pixels.iter_mut().zip(values).for_each(|(p, &v)| p[c] = f64::from(v));
-            }
-            _ => return Err(format!("{}: {name} is not 32-bit float", file.display())),
-        }
-    }
-    Ok((layer.size.width(), layer.size.height(), pixels))
+    let reading = read(file).map_err(|error| error.to_string())?;
+    reading
+        .noise_is_known
+        .then_some(reading.estimate)
+        .ok_or(format!("{}: no layer `variance`", file.display()))
 }

@@ -16,7 +16,7 @@ use dapple::scene::{
     Light, Material, Mesh, Projection, Roughness, Scene, Shape, ShapeKind, Surface, Texture, Value,
 };
 use dapple::shader::{CacheOptions, Compiler, Sources};
-use glam::{Affine3A, DVec3, Mat3, Vec3};
+use glam::{Affine3A, DVec3, Vec3};
 
 /// The device of this test program, with the validation layer when `DAPPLE_VALIDATION` is set.
 pub fn gpu() -> Arc<Gpu> {
@@ -255,12 +255,12 @@ pub fn sphere(center: Vec3, radius: f32) -> ShapeKind {
 
 /// The same radiance from everywhere.
 pub fn constant_environment(radiance: f32) -> Option<Environment> {
-    Some(Environment { radiance: grey(radiance), scale: 1.0, world_from_environment: Mat3::IDENTITY })
+    Some(Environment::new(grey(radiance)))
 }
 
 /// A point light.
 pub fn point(position: Vec3, intensity: f32) -> Light {
-    Light::Point { position, intensity: Vec3::splat(intensity) }
+    Light::point(position, Vec3::splat(intensity))
 }
 
 /// The twelve triangles of a box, counter-clockwise seen from outside; from inside when `inward`.

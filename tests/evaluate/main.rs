@@ -91,3 +91,29 @@ fn textures_have_the_values_of_their_texels() {
         }
     }
 }
+
+#[test]
+fn an_octahedral_picture_goes_on_across_its_edges() {
+    // Places at an edge that are one direction: as far from its middle, on both sides. Filtering meets texels of both
+    let mut scene = scene(8, 8, 1);
+    let texels = (0..36).map(|i| [(i * 7 % 11) as f32, (i * 5 % 13) as f32, i as f32, 1.0]).collect();
+    let image = Image { width: 6, height: 6, texels: Texels::RgbaF32(texels) };
+    let picture = scene.picture(image, |texture| texture.wrap = [Wrap::Octahedral; 2]);
+    let mut points = Vec::new();
+    for i in 0..40 {
+        let t = (i as f32 + 0.5) / 80.0;
+        for edge in [0.0, 1.0] {
+            points.extend([at_uv(edge, t), at_uv(edge, 1.0 - t), at_uv(t, edge), at_uv(1.0 - t, edge)]);
+        }
+    }
+    // Half a texel beyond a corner is the middle of the texel in the opposite corner
+    points.extend([at_uv(-1.0 / 12.0, -1.0 / 12.0), at_uv(11.0 / 12.0, 11.0 / 12.0)]);
+    for backend in [Backend::Storage, Backend::Texel] {
+        let values = evaluate(&scene, picture, backend, &points).unwrap();
+        for (pair, place) in values.chunks_exact(2).zip(points.chunks_exact(2)) {
+            let off = (0..4).map(|c| (pair[0][c] - pair[1][c]).abs()).fold(0.0, f32::max);
+            assert!(off < 1e-4, "{:?} and {:?}: {pair:?}", place[0].uv, place[1].uv);
+        }
+        assert!(values[0] != values[4], "{:?}", values[0]);
+    }
+}

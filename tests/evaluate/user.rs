@@ -28,6 +28,9 @@ fn point() -> TexturePoint {
         object_footprint: 0.0625,
         uv_footprint: [0.01, 0.02],
         time: 0.875,
+        uv1: [0.625, 0.75],
+        uv1_footprint: [0.03, 0.04],
+        vertex_color: [0.5, 0.25, 0.0625, 0.75],
         ..TexturePoint::default()
     }
 }
@@ -53,6 +56,8 @@ fn a_function_sees_the_point() {
         ("context.normal", [0.0, 1.0, 0.0]),
         ("context.object_normal", [0.0, 0.0, 1.0]),
         ("vec3(context.footprint, context.object_footprint, context.uv_footprint.y)", [0.5, 0.0625, 0.02]),
+        ("context.vertex_color.rga", [0.5, 0.25, 0.75]),
+        ("vec3(context.uv1, context.uv1_footprint.y)", [0.625, 0.75, 0.04]),
         ("vec3(9.0, -9.0, 0.5)", [4.0, -4.0, 0.5]),
     ];
     for (expression, expected) in cases {

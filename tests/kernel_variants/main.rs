@@ -4,6 +4,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod cameras;
 mod scenes;
 
 use common::probe::{cache, sources};

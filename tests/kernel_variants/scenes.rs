@@ -1,9 +1,10 @@
 //! Scenes that together switch every feature on and off.
 
+use crate::cameras::cameras;
 use crate::common::patterns::{noise, patterns};
 use crate::common::placed::placed;
 use dapple::scene::*;
-use glam::{Affine3A, Mat3, Vec3};
+use glam::{Affine3A, Vec3};
 
 fn constant(x: f32) -> Value<Vec3> {
     Value::Constant(Vec3::splat(x))
@@ -62,7 +63,7 @@ fn quad() -> ShapeKind {
 }
 
 fn surroundings(radiance: Value<Vec3>) -> Option<Environment> {
-    Some(Environment { radiance, scale: 2.0, world_from_environment: Mat3::IDENTITY })
+    Some(Environment { scale: 2.0, ..Environment::new(radiance) })
 }
 
 fn texture(scene: &mut Scene, texels: Texels, color_space: ColorSpace) -> Handle<Texture> {
@@ -88,7 +89,7 @@ fn plain() -> Scene {
     let mut scene = Scene::default();
     let grey = material(&mut scene, diffuse(0.5), None);
     place_triangle(&mut scene, grey, 1);
-    scene.lights.push(Light::Point { position: Vec3::Y, intensity: Vec3::ONE });
+    scene.lights.push(Light::point(Vec3::Y, Vec3::ONE));
     scene.render.sampler = Sampler::Center;
     scene.render.russian_roulette = false;
     scene
@@ -105,8 +106,9 @@ fn shapes() -> Scene {
     }
     let (position, direction) = (Vec3::Y, -Vec3::Y);
     scene.lights.extend([
-        Light::Spot { position, direction, intensity: Vec3::ONE, cone_angle: 30.0, falloff_angle: 5.0 },
-        Light::Distant { direction, irradiance: Vec3::ONE },
+        Light::new(LightKind::Spot { position, cone_angle: 30.0, falloff_angle: 5.0 }, constant(1.0))
+            .along(direction),
+        Light::distant(direction, Vec3::ONE),
     ]);
     let aperture = Aperture::Radius(0.1);
     let mut lens = Lens::new(aperture, 2.0);
@@ -133,7 +135,7 @@ fn lobes() -> Scene {
     scene.environment = surroundings(constant(1.0));
     scene.film.transparent = true;
     scene.render.sampler = Sampler::Random;
-    scene.film.filter.kind = FilterKind::BlackmanHarris;
+    scene.film.filter.kind = FilterKind::Mitchell { b: 0.3, c: 0.3 };
     scene
 }
 
@@ -194,52 +196,6 @@ fn moving() -> Scene {
     scene
 }
 
-/// The cameras, each with what it can have.
-fn cameras() -> Vec<(&'static str, Scene)> {
-    let axis = FovAxis::Vertical;
-    let fisheye = |mapping| Projection::Fisheye { mapping, fov: 180.0, axis };
-    let mut scene = plain();
-    let white = Image { width: 1, height: 1, texels: Texels::Rgba8(vec![[255; 4]]) };
-    let image = Some(scene.images.add("opening", white));
-    let mut tilted = Lens::new(Aperture::Radius(0.1), 1.0);
-    tilted.focus = Focus::Plane { point: Vec3::ZERO, normal: Vec3::Z };
-    (tilted.cat_eye, tilted.opening.image) = (1.0, image);
-    let row = |radius, index, abbe| LensInterface { radius, thickness: 2.0, index, abbe, aperture: 9.0 };
-    let interfaces = vec![row(50.0, 1.5, Some(50.0)), row(-50.0, 1.0, None)];
-    let lens = |opening, dispersion| {
-        let system = LensSystem { notes: Vec::new(), interfaces: interfaces.clone() };
-        let (measure, sensor_diagonal, unit) = (Measure::Radiance, 0.035, 1000.0);
-        let (stop_diameter, focus_distance) = (8.0, 1.0);
-        Projection::Lens(Box::new(LensCamera {
-            system,
-            stop_diameter,
-            focus_distance,
-            opening,
-            sensor_diagonal,
-            unit,
-            dispersion,
-            measure,
-        }))
-    };
-    let round = Opening::default();
-    let kinds = [
-        ("parallel rays", Projection::Orthographic { size: 2.0, axis }),
-        ("all directions", Projection::Equirectangular),
-        ("a fisheye", fisheye(FisheyeMapping::Equidistant)),
-        ("another fisheye", fisheye(FisheyeMapping::Equisolid)),
-        ("a tilted thin lens with a picture of its opening", Projection::thin_lens(40.0, tilted)),
-        ("a lens of two elements with blades and dispersion", lens(Opening { blades: 5, ..round }, true)),
-        ("a lens with a picture of its opening", lens(Opening { image, ..round }, true)),
-        ("a round lens", lens(round, false)),
-    ];
-    let with = |(name, projection)| {
-        let mut scene = scene.clone();
-        scene.camera.projection = projection;
-        (name, scene)
-    };
-    kinds.into_iter().map(with).collect()
-}
-
 /// Every kind of texture, one in the other.
 fn trees() -> Scene {
     let mut scene = Scene::default();
@@ -283,6 +239,51 @@ fn trees() -> Scene {
     scene
 }
 
+/// Surfaces that are there from their front alone, and nothing else that lets rays through.
+fn fronts() -> Scene {
+    let mut scene = plain();
+    let one_sided = material(&mut scene, diffuse(0.5), Some(constant(1.0)));
+    scene.materials[one_sided].detail.sides = Sides::Front;
+    place_triangle(&mut scene, one_sided, 1);
+    place_shape(&mut scene, one_sided, sphere());
+    scene
+}
+
+/// Textures that see colours of vertices, a second set of texture coordinates, or both, wherever there are textures.
+fn corners(colors: bool, uvs: bool) -> Scene {
+    let mut scene = Scene::default();
+    let bytes = Texels::Rgba8(vec![[9, 99, 200, 255]; 2]);
+    let mut last = texture(&mut scene, bytes, ColorSpace::Srgb);
+    if colors {
+        let color = Value::Texture(scene.textures.add("color", Texture::VertexColor(Channel::Rgb)));
+        last = scene.textures.add("product", Texture::Multiply { a: color, b: Value::Texture(last) });
+    }
+    if uvs {
+        let mapping = Mapping {
+            kind: MappingKind::Uv1,
+            space: MappingSpace::Object,
+            mapping_from_space: Affine3A::IDENTITY,
+            pole_u: 0.0,
+            seam_blend: 0.5,
+            sharpness: 4.0,
+        };
+        last = scene.textures.add("second", Texture::Mapped { value: Value::Texture(last), mapping });
+    }
+    let value = Value::Texture(last);
+    let lamp = material(&mut scene, Surface::Diffuse { color: value }, Some(value));
+    let detail = &mut scene.materials[lamp].detail;
+    detail.opacity = Opacity { value: Value::Texture(last), cutoff: None, filter: value };
+    detail.bump = Some(Bump { texture: last, height: 1.0, derivative: Derivative::Kernel, curvature: true });
+    let (green_down, strength, tangents) = (false, 1.0, Tangents::Uv);
+    detail.normal_map = Some(NormalMap { texture: last, green_down, strength, tangents });
+    place_triangle(&mut scene, lamp, 1);
+    for kind in [sphere(), disk(), quad()] {
+        place_shape(&mut scene, lamp, kind);
+    }
+    scene.environment = surroundings(value);
+    scene
+}
+
 fn textured() -> Scene {
     let mut scene = Scene::default();
     let bytes = || Texels::Rgba8(vec![[9, 99, 200, 255]; 2]);
@@ -323,6 +324,25 @@ fn textured() -> Scene {
     scene
 }
 
+/// Lights with textures, by every way to look one up, and one that has none.
+fn slides() -> Scene {
+    let mut scene = plain();
+    let handle = texture(&mut scene, Texels::RgbaF32(vec![[0.5, 2.0, 3.0, 1.0]; 2]), ColorSpace::Linear);
+    let Texture::Image(image) = &mut scene.textures[handle] else { return scene };
+    image.wrap = [Wrap::Octahedral; 2];
+    let (position, fov_axis, mapping) = (Vec3::Y, FovAxis::Smaller, DirectionMapping::EqualArea);
+    let kinds = [
+        LightKind::Point { position, mapping },
+        LightKind::Point { position, mapping: DirectionMapping::Equirectangular },
+        LightKind::Spot { position, cone_angle: 30.0, falloff_angle: 5.0 },
+        LightKind::Projection { position, fov: 30.0, fov_axis, aspect: 2.0 },
+        LightKind::Distant,
+    ];
+    scene.lights.extend(kinds.map(|kind| Light::new(kind, Value::Texture(handle))));
+    scene.environment = surroundings(Value::Texture(handle)).map(|around| Environment { mapping, ..around });
+    scene
+}
+
 /// Scenes that together switch every feature on and off.
 pub fn scenes() -> Vec<(&'static str, Scene)> {
     let mut all = vec![
@@ -335,6 +355,11 @@ pub fn scenes() -> Vec<(&'static str, Scene)> {
         ("principled materials and mixes", layers()),
         ("every kind of texture", trees()),
         ("motion", moving()),
+        ("fronts without backs", fronts()),
+        ("colours of vertices", corners(true, false)),
+        ("a second set of texture coordinates", corners(false, true)),
+        ("colours and a second set", corners(true, true)),
+        ("lights with textures", slides()),
     ];
     all.extend(cameras());
     all

@@ -222,13 +222,25 @@ fn center_and_regular_samples_are_where_they_should_be() {
 #[test]
 fn filters_keep_a_constant_and_show_their_profile() {
     type Profile = fn(f64) -> f64;
-    let cases: [(FilterKind, f32, Profile); 4] = [
+    let cases: [(FilterKind, f32, Profile); 6] = [
         (FilterKind::Box, 1.0, |_| 1.0),
         (FilterKind::Tent, 2.0, |x| 1.0 - x.abs()),
         (FilterKind::Gaussian, 1.5, |x| (-4.5 * x * x).exp() - (-4.5_f64).exp()),
         (FilterKind::BlackmanHarris, 2.0, |x| {
             let t = std::f64::consts::PI * (x + 1.0);
             0.35875 - 0.48829 * t.cos() + 0.14128 * (2.0 * t).cos() - 0.01168 * (3.0 * t).cos()
+        }),
+        (FilterKind::Mitchell { b: 1.0 / 3.0, c: 1.0 / 3.0 }, 2.0, |x| {
+            let x = 2.0 * x.abs();
+            if x < 1.0 {
+                7.0 * x.powi(3) - 12.0 * x * x + 16.0 / 3.0
+            } else {
+                (x - 2.0).powi(2) * (8.0 - 7.0 * x) / 3.0
+            }
+        }),
+        (FilterKind::Sinc { tau: 3.0 }, 4.0, |x| {
+            let angle = 4.0 * std::f64::consts::PI * x.abs().max(1e-9);
+            angle.sin() / angle * (angle / 3.0).sin() / (angle / 3.0)
         }),
     ];
     for (kind, radius, profile) in cases {
@@ -244,6 +256,8 @@ fn filters_keep_a_constant_and_show_their_profile() {
         let n = 2000;
         let at = |k: i32| (f64::from(k) + 0.5) / f64::from(n) * 2.0 - 1.0;
         let whole: f64 = (0..n).map(|k| profile(at(k))).sum::<f64>() * 2.0 / f64::from(n) * r;
+        let magnitude =
+            ((0..n).map(|k| profile(at(k)).abs()).sum::<f64>() * 2.0 / f64::from(n) * r / whole).powi(2);
         // Weight of the impulse in a pixel whose centre is `d` pixels away along one axis
         let weight = |d: f64| {
             let each = |k: i32| {
@@ -257,8 +271,9 @@ fn filters_keep_a_constant_and_show_their_profile() {
             let expected = weight(dx) * weight(dy);
             let measured = mean_of(&p, [i as usize]);
             let off = (measured.mean[0] - expected).abs();
-            // Counts of 4096 samples: a pixel that expects a few of them may see none, so the error is that of the expected count
-            let error = (expected / 4096.0).sqrt();
+            // Counts of 4096 samples: a pixel that expects a few of them may see none, so the error is that of the expected count.
+            // Samples of a filter that is negative in places weigh more than 1
+            let error = (magnitude * expected.abs() / 4096.0).sqrt();
             assert!(
                 off <= 4.0 * error + 1e-9,
                 "{kind:?}, pixel {dx} {dy}: {measured:?}, expected {expected}"
@@ -267,7 +282,15 @@ fn filters_keep_a_constant_and_show_their_profile() {
         let mut s = scene(8, 8, 16);
         s.film.filter = Filter { kind, radius };
         s.environment = constant_environment(1.0);
-        expect_every_pixel(&render(&s), [1.0; 3], 0.0);
+        if magnitude < 1.0 + 1e-9 {
+            expect_every_pixel(&render(&s), [1.0; 3], 0.0);
+        } else {
+            // Each sample is more than 1, up or down
+            let p = render(&s);
+            let mean = mean_of(&p, 0..64);
+            assert!((mean.mean[0] - 1.0).abs() <= 4.0 * mean.error[0], "{kind:?}: {mean:?}");
+            assert!(mean.error[0] > 0.0);
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Light of pictures around the scene.
 
 use super::floor::*;
+use super::light_texture::octahedral;
 use crate::common::render::*;
 use dapple::scene::*;
 use glam::{DVec3, Mat3, Vec3};
@@ -24,7 +25,7 @@ fn sky() -> (Image, impl Fn(DVec3) -> f64) {
 fn image_environment(s: &mut Scene, image: Image, turn: Mat3) {
     let texture = s.picture(image, |t| t.filter = TexelFilter::Nearest);
     s.environment =
-        Some(Environment { radiance: Value::Texture(texture), scale: 1.0, world_from_environment: turn });
+        Some(Environment { world_from_environment: turn, ..Environment::new(Value::Texture(texture)) });
 }
 
 #[test]
@@ -76,8 +77,7 @@ fn moved_environment_pictures_are_sampled_without_bias() {
         t.filter = TexelFilter::Nearest;
         t.uv.offset = glam::Vec2::new(0.25, 0.0);
     });
-    let radiance = Value::Texture(texture);
-    s.environment = Some(Environment { radiance, scale: 1.0, world_from_environment: Mat3::IDENTITY });
+    s.environment = Some(Environment::new(Value::Texture(texture)));
     expect_grey(mean(&render(&s)), expected, 2e-3);
 }
 
@@ -89,4 +89,38 @@ fn bright_texels_of_an_environment_are_not_clamped() {
     let p = render(&s);
     // Sums are whole numbers of 2⁻¹⁴ here
     assert!(p.rgb.iter().all(|c| (c[0] - 5.0e4).abs() < 1e-2 && (c[1] - 1.0).abs() < 1e-4), "{:?}", p.rgb[0]);
+}
+
+#[test]
+fn an_even_equal_area_environment_is_even() {
+    // A white floor under it shows its radiance, whatever direction is drawn, and so does a mirror of it
+    let mut s = floor_scene(white(), 256);
+    let image = Image { width: 5, height: 5, texels: Texels::RgbaF32(vec![[0.7; 4]; 25]) };
+    image_environment(&mut s, image, Mat3::from_rotation_x(0.4));
+    s.environment.as_mut().unwrap().mapping = DirectionMapping::EqualArea;
+    expect_grey(mean(&render(&s)), f64::from(0.7_f32), 1e-4);
+}
+
+#[test]
+fn an_equal_area_environment_on_a_floor() {
+    let tilt = Mat3::from_rotation_y(0.7) * Mat3::from_rotation_x(0.4) * Mat3::from_rotation_z(-0.3);
+    let value = |i: usize| if i == 11 { 40.0 } else { 0.2 + (i * 7 % 5) as f32 * 0.3 };
+    let at = |d: DVec3| {
+        let uv = octahedral(d);
+        let [column, row] = [uv.x, 1.0 - uv.y].map(|x| ((x * 6.0) as usize).min(5));
+        f64::from(value(row * 6 + column))
+    };
+    let wo = EYE.as_dvec3().normalize();
+    for turn in [Mat3::IDENTITY, tilt] {
+        for (surface, bsdf) in surfaces() {
+            let back = turn.as_dmat3().transpose();
+            let expected = albedo(wo, |wo, wi| bsdf(wo, wi) * at(back * wi));
+            let mut s = floor_scene(surface, 2048);
+            let texels = Texels::RgbaF32((0..36).map(|i| [value(i); 4]).collect());
+            image_environment(&mut s, Image { width: 6, height: 6, texels }, turn);
+            s.environment.as_mut().unwrap().mapping = DirectionMapping::EqualArea;
+            // The quadrature meets the borders of texels at random
+            expect_grey(mean(&render(&s)), expected, 2e-3);
+        }
+    }
 }

@@ -64,28 +64,22 @@ fn lights_without_extent() {
     };
     expect_grey(with(point(at, 5.0)), 5.0 / d2 * cos / PI, 1e-4);
     // Irradiance on a surface that faces the light
-    let distant = Light::Distant { direction: -at.normalize(), irradiance: Vec3::splat(4.0) };
+    let distant = Light::distant(-at.normalize(), Vec3::splat(4.0));
     expect_grey(with(distant), 4.0 * cos / PI, 1e-4);
     // Smoothstep in the cosine between the cone and the cone less its soft edge
     for turn in [0.0_f32, 12.0, 17.0, 24.0, 29.0] {
         let away = glam::Quat::from_axis_angle(at.normalize().any_orthonormal_vector(), turn.to_radians());
         let direction = away * -at.normalize();
-        let spot = Light::Spot {
-            position: at,
-            direction,
-            intensity: Vec3::splat(5.0),
-            cone_angle: 30.0,
-            falloff_angle: 15.0,
-        };
+        let spot = LightKind::Spot { position: at, cone_angle: 30.0, falloff_angle: 15.0 };
+        let spot = Light::new(spot, grey(5.0)).along(direction);
         let (outer, inner) = (30_f64.to_radians().cos(), 15_f64.to_radians().cos());
         let t = ((f64::from(turn).to_radians().cos() - outer) / (inner - outer)).clamp(0.0, 1.0);
         // Near the edge of the cone the rounding of the cosine counts: t is a difference of two of them
         expect_grey(with(spot), 5.0 / d2 * cos / PI * t * t * (3.0 - 2.0 * t), 2e-4);
     }
     let direction = Vec3::new(1.0, 2.0, -0.4).normalize();
-    let behind =
-        Light::Spot { position: at, direction, intensity: Vec3::ONE, cone_angle: 30.0, falloff_angle: 15.0 };
-    assert_eq!(with(behind).mean, [0.0; 3]);
+    let spot = LightKind::Spot { position: at, cone_angle: 30.0, falloff_angle: 15.0 };
+    assert_eq!(with(Light::new(spot, grey(1.0)).along(direction)).mean, [0.0; 3]);
 }
 
 #[test]
@@ -199,10 +193,7 @@ fn lights_of_all_kinds_and_powers_add_up() {
     expected += 0.5 * PI * 0.25 / 18.0 * 0.5_f64.sqrt();
     s.lights.push(point(Vec3::new(0.0, 4.0, 4.0), 3.0));
     expected += 3.0 / 32.0 * 0.5_f64.sqrt();
-    s.lights.push(Light::Distant {
-        direction: Vec3::new(-1.0, -0.2, 0.0).normalize(),
-        irradiance: Vec3::splat(0.3),
-    });
+    s.lights.push(Light::distant(Vec3::new(-1.0, -0.2, 0.0).normalize(), Vec3::splat(0.3)));
     expected += 0.3 * 0.2 / 1.04_f64.sqrt();
     s.environment = constant_environment(0.2);
     // The environment behind the lights is hidden by them, up to their own irradiance at radiance 0.2

@@ -10,6 +10,8 @@
 mod common;
 
 mod camera;
+mod cones;
+mod corners;
 mod displacement;
 mod emission;
 mod environment;
@@ -21,6 +23,7 @@ mod geometry;
 mod glass;
 mod lens;
 mod light;
+mod light_texture;
 mod material;
 mod motion;
 mod offset;
@@ -28,6 +31,7 @@ mod opacity;
 mod paths;
 mod planes;
 mod relief;
+mod sides;
 mod sizes;
 mod texture;
 mod traversal;

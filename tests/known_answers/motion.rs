@@ -214,7 +214,7 @@ fn nothing_that_moves_shadows_itself() {
         let eye = (away + 4.0 * (open * Vec3::Z + 0.5 * random.in_cube(1.0))) * scale;
         s.camera = look(eye, away * scale, 35.0);
         let irradiance = Vec3::splat(std::f32::consts::PI);
-        s.lights.push(Light::Distant { direction: -light, irradiance });
+        s.lights.push(Light::distant(-light, irradiance));
         let white = s.diffuse(1.0);
         match kind {
             0 => _ = s.quad(Vec3::new(-1.0, -1.0, 0.0), Vec3::X * 2.0, Vec3::Y * 2.0, white),

@@ -26,7 +26,7 @@ fn under_light(towards_light: Vec3, camera: Camera) -> Scene {
     s.render.max_depth = 1;
     s.camera = camera;
     let irradiance = Vec3::splat(std::f32::consts::PI);
-    s.lights.push(Light::Distant { direction: -towards_light, irradiance });
+    s.lights.push(Light::distant(-towards_light, irradiance));
     s
 }
 

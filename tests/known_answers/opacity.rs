@@ -104,8 +104,7 @@ fn a_shadow_through_layers_is_exact() {
             s.camera = look(Vec3::new(0.0, 5.0, 0.1), Vec3::ZERO, 5.0);
             let floor = s.diffuse(0.5);
             s.floor(floor);
-            s.lights
-                .push(Light::Point { position: Vec3::new(30.0, 20.0, 0.0), intensity: Vec3::splat(1000.0) });
+            s.lights.push(Light::point(Vec3::new(30.0, 20.0, 0.0), Vec3::splat(1000.0)));
             let m = veil(&mut s, Opacity { filter: Value::Constant(filter), ..share(alpha) });
             for k in 0..count {
                 let x = 5.0 + k as f32;

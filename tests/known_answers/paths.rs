@@ -169,7 +169,7 @@ fn the_geometric_normal_vetoes_only_when_asked() {
         let m = s.diffuse(1.0);
         let mesh = s.meshes.add("leaning", mesh);
         s.place(mesh, m, Affine3A::IDENTITY);
-        s.lights.push(Light::Distant { direction, irradiance: Vec3::ONE });
+        s.lights.push(Light::distant(direction, Vec3::ONE));
         f64::from(render(&s).rgb[0][0])
     };
     // From above at +x: both see it, by the cosine with the shading normal

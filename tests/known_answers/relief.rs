@@ -139,7 +139,7 @@ fn a_flat_map_changes_nothing() {
         change(&mut s, m);
         let mesh = s.meshes.add("ball", ball(6));
         s.place(mesh, m, Affine3A::from_scale(Vec3::new(1.0, 0.5, 1.0)));
-        s.lights.push(Light::Point { position: Vec3::new(3.0, 4.0, 5.0), intensity: Vec3::splat(50.0) });
+        s.lights.push(Light::point(Vec3::new(3.0, 4.0, 5.0), Vec3::splat(50.0)));
         render(&s)
     };
     let flat = |s: &mut Scene, texel| {

@@ -137,7 +137,7 @@ fn sky() -> (Scene, Mat3) {
     let mut s = scene(4, 4, 1);
     let picture = s.picture(Image { width: 12, height: 8, texels }, |t| t.filter = TexelFilter::Nearest);
     let radiance = Value::Texture(picture);
-    s.environment = Some(Environment { radiance, scale: 1.0, world_from_environment: turned });
+    s.environment = Some(Environment { world_from_environment: turned, ..Environment::new(radiance) });
     (s, turned)
 }
 

@@ -53,6 +53,14 @@ fn opacity() {
             "[material.m]\nkind = 'diffuse'\nfilter_color = 0.5",
             "3:16: `filter_color` needs `opacity`; add `opacity`",
         ),
+        (
+            "[material.m]\nkind = 'diffuse'\nsides = 'back'",
+            "3:9: `sides` is \"back\", must be one of \"both\", \"front\"",
+        ),
+        (
+            "[material.m]\nkind = 'diffuse'\nemission = 1\ntwo_sided = true\nsides = 'front'",
+            "4:13: `two_sided` light needs a surface that is there from both sides; remove `two_sided`, or `sides`",
+        ),
         ("[material.m]\nkind = 'diffuse'\nopacity = 2", "3:11: `opacity` is 2, must be from 0 to 1"),
     ]);
 }

@@ -129,11 +129,11 @@ fn film_and_render() {
         ),
         (
             "[film]\nfilter = \"guassian\"",
-            "2:10: `filter` is \"guassian\", must be one of \"box\", \"tent\", \"gaussian\", \"blackman_harris\"; did you mean \"gaussian\"?",
+            "2:10: `filter` is \"guassian\", must be one of \"box\", \"tent\", \"gaussian\", \"blackman_harris\", \"mitchell\", \"sinc\"; did you mean \"gaussian\"?",
         ),
         (
             "[film]\nfilter = 3",
-            "2:10: `filter` must be one of \"box\", \"tent\", \"gaussian\", \"blackman_harris\", found a whole number",
+            "2:10: `filter` must be one of \"box\", \"tent\", \"gaussian\", \"blackman_harris\", \"mitchell\", \"sinc\", found a whole number",
         ),
         ("[film]\nfilter_radius = 0", "2:17: `filter_radius` is 0, must be above 0 and at most 64"),
         ("[film]\nexposure = nan", "2:12: `exposure` is nan, must be finite"),

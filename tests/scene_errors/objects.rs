@@ -211,7 +211,7 @@ fn lights_and_environment() {
     check(&[
         (
             "[[light]]\nkind = 'sun'",
-            "2:8: `kind` is \"sun\", must be one of \"point\", \"spot\", \"distant\", \"sphere\", \"disk\", \"quad\"",
+            "2:8: `kind` is \"sun\", must be one of \"point\", \"spot\", \"projection\", \"distant\", \"sphere\", \"disk\", \"quad\"",
         ),
         ("[[light]]\nkind = 'point'\nposition = [0, 0, 0]", "1:1: `intensity` is missing in point light 1"),
         (
@@ -228,7 +228,19 @@ fn lights_and_environment() {
         ),
         (
             "[[light]]\nkind = 'spot'\nposition = [0, 0, 0]\nintensity = 1\ntarget = [0, 0, 0]",
-            "5:10: the spot light aims at its own position",
+            "5:10: spot light 1 aims at its own position",
+        ),
+        (
+            "[[light]]\nkind = 'point'\nposition = [0, 0, 0]\nintensity = 1\nscale = 2\npower = 3",
+            "6:9: point light 1 has both `scale` and `power`; keep one of them",
+        ),
+        (
+            "[[light]]\nkind = 'point'\nposition = [0, 0, 0]\nintensity = 1\ntransform = [{ scale = 2 }]",
+            "5:13: the `transform` of point light 1 is more than a rotation; use `rotate` steps only",
+        ),
+        (
+            "[[light]]\nkind = 'projection'\nposition = [0, 0, 0]\nintensity = 1\ntarget = [1, 0, 0]\nup = [2, 0, 0]",
+            "6:6: `up` is parallel to the direction of the light; turn one of them",
         ),
         (
             "[[light]]\nkind = 'spot'\nposition = [0, 0, 0]\nintensity = 1\ntarget = [1, 0, 0]\ncone_angle = 20\nfalloff_angle = 21",
@@ -245,7 +257,7 @@ fn lights_and_environment() {
         ),
         (
             "[[light]]\nkind = 'distant'\nirradiance = { texture = 'a' }\nfrom = [0, 1, 0]",
-            "3:14: `irradiance` must be a colour, found a table",
+            "3:26: no texture is named `a`; there are no textures",
         ),
         ("[environment]", "1:1: [environment] has neither `color` nor `texture`; add one of them"),
         (
@@ -259,15 +271,15 @@ fn lights_and_environment() {
         ),
         (
             "[environment]\ncolor = 1\ntransform = [{ scale = 2 }]",
-            "3:13: the `transform` of the environment is more than a rotation; use `rotate` steps only",
+            "3:13: the `transform` of [environment] is more than a rotation; use `rotate` steps only",
         ),
         (
             "[environment]\ncolor = 1\ntransform = [{ translate = [0, 1, 0] }]",
-            "3:13: the `transform` of the environment is more than a rotation; use `rotate` steps only",
+            "3:13: the `transform` of [environment] is more than a rotation; use `rotate` steps only",
         ),
         (
             "[environment]\ncolor = 1\ntransform = [{ matrix = [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0] }]",
-            "3:13: the `transform` of the environment is more than a rotation; use `rotate` steps only",
+            "3:13: the `transform` of [environment] is more than a rotation; use `rotate` steps only",
         ),
     ]);
 }

@@ -13,7 +13,7 @@ const ALL: &str = include_str!("../../src/import/pbrt/tests/all.pbrt");
 /// Words of the scene, with its pictures as those that are there.
 fn words() -> Vec<String> {
     let lines = ALL.lines().filter(|line| !line.trim_start().starts_with('#'));
-    lines.flat_map(str::split_ascii_whitespace).map(|word| word.replace("a.exr", "a.png")).collect()
+    lines.flat_map(str::split_ascii_whitespace).map(|word| word.replace(".exr\"", ".png\"")).collect()
 }
 
 fn prepared(words: &[String]) -> Result<Prepared> {

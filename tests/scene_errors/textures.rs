@@ -7,11 +7,11 @@ fn textures() {
     check(&[
         (
             "[texture.t]\nfile = 'a.png'",
-            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"stack\", \"glsl\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"direction_mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"",
+            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"stack\", \"glsl\", \"constant\", \"vertex_color\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"direction_mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"",
         ),
         (
             "[texture.t]\nkind = 'imag'",
-            "2:8: `kind` is \"imag\", must be one of \"image\", \"stack\", \"glsl\", \"constant\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"direction_mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"; did you mean \"image\"?",
+            "2:8: `kind` is \"imag\", must be one of \"image\", \"stack\", \"glsl\", \"constant\", \"vertex_color\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"direction_mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"; did you mean \"image\"?",
         ),
         (
             "[texture.t]\nkind = 'invert'\nvalue = { texture = 'u' }\n[texture.u]\nkind = 'invert'\nvalue = { texture = 't' }",
@@ -53,7 +53,7 @@ fn textures() {
         ),
         (
             "[texture.t]\nkind = 'image'\nfile = 'a.png'\ngamma = 2",
-            "4:1: unknown key `gamma` in image texture `t`; its keys are `kind`, `file`, `filter`, `wrap`, `uv_scale`, `uv_rotate`, `uv_offset`, `color_space`, `channel`, `scale`, `invert`, `mapping`, `mapping_space`, `mapping_transform`, `pole`, `meridian`, `pole_u`, `seam_blend`, `sharpness`",
+            "4:1: unknown key `gamma` in image texture `t`; its keys are `kind`, `file`, `filter`, `wrap`, `uv_scale`, `uv_rotate`, `uv_offset`, `color_space`, `channel`, `scale`, `invert`, `mapping`, `uv_set`, `mapping_space`, `mapping_transform`, `pole`, `meridian`, `pole_u`, `seam_blend`, `sharpness`",
         ),
     ]);
 }
@@ -113,6 +113,11 @@ fn mappings_and_stacks() {
             "[texture.t]\nkind = 'mapped'\nvalue = 1\nmapping = 'cube'\npole = [0, 0, 1]",
             "5:8: `pole` has no meaning for the mapping \"cube\"; remove it, or choose another `mapping`",
         ),
+        (
+            "[texture.t]\nkind = 'mapped'\nvalue = 1\nmapping = 'planar'\nuv_set = 1",
+            "5:10: `uv_set` has no meaning for the mapping \"planar\"; remove it, or choose another `mapping`",
+        ),
+        ("[texture.t]\nkind = 'mapped'\nvalue = 1\nuv_set = 2", "4:10: `uv_set` is 2, must be from 0 to 1"),
         (
             "[texture.t]\nkind = 'mapped'\nvalue = 1\nseam_blend = 1.5",
             "4:14: `seam_blend` is 1.5, must be from 0 to 1",

@@ -5,7 +5,7 @@ use dapple::scene::{
     Camera, Conductor, Dielectric, Emission, Environment, Film, Fresnel, Handle, Instance, Material,
     Projection, Render, Roughness, Scene, Shape, ShapeKind, Surface, Value,
 };
-use glam::{Affine3A, Mat3, Quat, Vec3};
+use glam::{Affine3A, Quat, Vec3};
 
 /// Name of a scene, and how to make it.
 type Named = (&'static str, fn() -> Scene);
@@ -103,11 +103,7 @@ fn room(max_depth: u32) -> Scene {
             projection: Projection::pinhole(45.0),
             ..Camera::default()
         },
-        environment: Some(Environment {
-            radiance: Value::Constant(Vec3::new(0.4, 0.45, 0.5)),
-            scale: 1.0,
-            world_from_environment: Mat3::IDENTITY,
-        }),
+        environment: Some(Environment::new(Value::Constant(Vec3::new(0.4, 0.45, 0.5)))),
         ..Scene::default()
     };
     let ground = diffuse(&mut scene, "ground", Vec3::splat(0.5));

@@ -63,13 +63,11 @@ impl Reader<'_> {
             "box" => (FilterKind::Box, 0.5),
             "triangle" => (FilterKind::Tent, 2.0),
             "gaussian" => (FilterKind::Gaussian, 1.5),
-            "mitchell" | "sinc" => {
-                let mitchell = kind == "mitchell";
-                let what = if mitchell { Unsupported::Mitchell } else { Unsupported::Sinc };
-                self.unsupported(what, &from.spot);
-                from.ignore(&["xradius", "yradius", "B", "C", "tau"]);
-                return from.finish();
+            "mitchell" => {
+                let share = |name| from.float_or(name, 1.0 / 3.0, Limits::From(0.0, 1.0));
+                (FilterKind::Mitchell { b: share("B")?, c: share("C")? }, 2.0)
             }
+            "sinc" => (FilterKind::Sinc { tau: from.float_or("tau", 3.0, Limits::Above(0.0))? }, 4.0),
             _ => {
                 let known = ["box", "triangle", "gaussian", "mitchell", "sinc"];
                 return Err(self.unknown("PixelFilter", kind, from, &known));

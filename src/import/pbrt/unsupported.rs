@@ -48,8 +48,6 @@ unsupported! {
     SpectralFilm: "Film \"spectral\"", "the film is \"rgb\"";
     FilterSize: "a filter that is not as wide as high", "it is as wide as high";
     FilterSigma: "sigma that is not a third of the radius", "sigma is a third of the radius";
-    Mitchell: "PixelFilter \"mitchell\"", "a \"gaussian\"";
-    Sinc: "PixelFilter \"sinc\"", "a \"gaussian\"";
     PixelJitter: "Option \"disablepixeljitter\"", "samples are spread over the pixel";
     ForceDiffuse: "Option \"forcediffuse\"", "materials stay as they are";
     Integrator: "Integrator \"ambientocclusion\" and \"function\"", "paths are traced";
@@ -74,9 +72,9 @@ unsupported! {
     Measured: "Material \"measured\"", "a \"diffuse\" one of 0.5";
     Subsurface: "Material \"subsurface\"", "a \"diffuse\" one of 0.5";
     ShiningInterface: "an area light on Material \"interface\"", "the light is a black surface";
-    Goniometric: "LightSource \"goniometric\"", "a \"point\"";
-    ProjectionLight: "LightSource \"projection\"", "left out";
-    EnvironmentImage: "LightSource \"infinite\" with an image", "left out";
+    ShearedLight: "a light with an image that is sheared", "its axes are taken as they are";
+    ImageIlluminance: "illuminance beside an image", "the image is as bright as it is";
+    SecondEnvironment: "a second LightSource \"infinite\" beside an image", "the image alone shines";
     Portal: "portal", "the light shines from everywhere";
     LampImage: "AreaLightSource with an image", "it shines alike everywhere";
     InstancedLamp: "an area light in an object", "it does not shine, as in pbrt";

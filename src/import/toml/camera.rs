@@ -14,6 +14,9 @@ const MIN_SINE: f64 = 1e-6;
 const MAPPINGS: [(&str, FisheyeMapping); 2] =
     [("equidistant", FisheyeMapping::Equidistant), ("equisolid", FisheyeMapping::Equisolid)];
 
+pub(super) const FOV_AXES: [(&str, FovAxis); 3] =
+    [("vertical", FovAxis::Vertical), ("horizontal", FovAxis::Horizontal), ("smaller", FovAxis::Smaller)];
+
 /// Where the camera stands and looks, in 64 bits.
 pub(super) struct Stand {
     pub position: DVec3,
@@ -44,12 +47,7 @@ impl Reader<'_> {
     }
 
     fn projection(&mut self, view: &View<'_>, kind: &str, stand: &Stand) -> Result<Projection> {
-        let axes = [
-            ("vertical", FovAxis::Vertical),
-            ("horizontal", FovAxis::Horizontal),
-            ("smaller", FovAxis::Smaller),
-        ];
-        let axis = view.choice_or("fov_axis", FovAxis::Vertical, &axes)?;
+        let axis = view.choice_or("fov_axis", FovAxis::Vertical, &FOV_AXES)?;
         Ok(match kind {
             "orthographic" => {
                 Projection::Orthographic { size: view.f32_or("view_size", 2.0, Limits::Above(0.0))?, axis }

@@ -5,7 +5,7 @@ use super::reader::Reader;
 use super::text::Limits;
 use super::view::{Item, View};
 use crate::Result;
-use crate::scene::{Bump, Derivative, Detail, NormalMap, Opacity, Tangents, Value};
+use crate::scene::{Bump, Derivative, Detail, NormalMap, Opacity, Sides, Tangents, Value};
 use glam::Vec3;
 
 /// What an opacity and a filter may be.
@@ -23,6 +23,7 @@ impl Reader<'_> {
         }
         Ok(Detail {
             opacity: self.opacity(view)?,
+            sides: sides(view)?,
             bump: view.get("bump").map(|item| self.bump(item)).transpose()?,
             normal_map: view.get("normal_map").map(|item| self.normal_map(item)).transpose()?,
             soften_terminator: view.bool_or("soften_terminator", default.soften_terminator)?,
@@ -73,5 +74,16 @@ impl Reader<'_> {
                 None => Value::Constant(Vec3::ONE),
             },
         })
+    }
+}
+
+/// From where a surface is there. What is not there from behind sends out no light there.
+fn sides(view: &View<'_>) -> Result<Sides> {
+    let sides = view.choice_or("sides", Sides::Both, &[("both", Sides::Both), ("front", Sides::Front)])?;
+    match view.get("two_sided") {
+        Some(item) if sides == Sides::Front && item.bool()? => Err(item
+            .error("`two_sided` light needs a surface that is there from both sides")
+            .help("remove `two_sided`, or `sides`")),
+        _ => Ok(sides),
     }
 }

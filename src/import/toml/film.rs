@@ -54,21 +54,7 @@ impl Reader<'_> {
             }
             film.crop = Some(Rect { x0, y0, x1, y1 });
         }
-        let kinds = [
-            ("box", FilterKind::Box),
-            ("tent", FilterKind::Tent),
-            ("gaussian", FilterKind::Gaussian),
-            ("blackman_harris", FilterKind::BlackmanHarris),
-        ];
-        let kind = view.choice_or("filter", film.filter.kind, &kinds)?;
-        let radius = match kind {
-            _ if view.get("filter").is_none() => film.filter.radius,
-            FilterKind::Box => 0.5,
-            FilterKind::Tent => 1.0,
-            FilterKind::Gaussian | FilterKind::BlackmanHarris => 1.5,
-        };
-        let radius = view.f32_or("filter_radius", radius, Limits::AboveUpTo(0.0, MAX_FILTER_RADIUS))?;
-        film.filter = Filter { kind, radius };
+        film.filter = filter(&view, film.filter)?;
         film.exposure = view.get("exposure").map_or(Ok(film.exposure), exposure)?;
         film.tone_curve = view.choice_or("tone_curve", film.tone_curve, &TONE_CURVES)?;
         if let Some(item) = view.get("png_bits") {
@@ -114,4 +100,45 @@ impl Reader<'_> {
         };
         Ok(())
     }
+}
+
+/// The pixel filter.
+fn filter(view: &View<'_>, default: Filter) -> Result<Filter> {
+    let kinds = [
+        ("box", FilterKind::Box),
+        ("tent", FilterKind::Tent),
+        ("gaussian", FilterKind::Gaussian),
+        ("blackman_harris", FilterKind::BlackmanHarris),
+        ("mitchell", FilterKind::Mitchell { b: 1.0 / 3.0, c: 1.0 / 3.0 }),
+        ("sinc", FilterKind::Sinc { tau: 3.0 }),
+    ];
+    let mut kind = view.choice_or("filter", default.kind, &kinds)?;
+    let mitchell = matches!(kind, FilterKind::Mitchell { .. });
+    let sinc = matches!(kind, FilterKind::Sinc { .. });
+    for (key, word, fits) in
+        [("filter_b", "mitchell", mitchell), ("filter_c", "mitchell", mitchell), ("filter_tau", "sinc", sinc)]
+    {
+        if let Some(item) = view.get(key).filter(|_| !fits) {
+            let error = item.error(format!("{} needs `filter = \"{word}\"`", item.name()));
+            return Err(error.help("choose that filter, or leave the key out"));
+        }
+    }
+    let radius = match &mut kind {
+        FilterKind::Box => 0.5,
+        FilterKind::Tent => 1.0,
+        FilterKind::Gaussian | FilterKind::BlackmanHarris => 1.5,
+        FilterKind::Mitchell { b, c } => {
+            *b = view.f32_or("filter_b", *b, Limits::From(0.0, 1.0))?;
+            *c = view.f32_or("filter_c", *c, Limits::From(0.0, 1.0))?;
+            2.0
+        }
+        FilterKind::Sinc { tau } => {
+            *tau = view.f32_or("filter_tau", *tau, Limits::AboveUpTo(0.0, MAX_FILTER_RADIUS))?;
+            4.0
+        }
+    };
+    // That of the scene, unless another kind is chosen
+    let radius = if view.get("filter").is_some() { radius } else { default.radius };
+    let radius = view.f32_or("filter_radius", radius, Limits::AboveUpTo(0.0, MAX_FILTER_RADIUS))?;
+    Ok(Filter { kind, radius })
 }

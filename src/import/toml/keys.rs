@@ -30,8 +30,19 @@ pub(super) const NAMED: &[&str] = &["texture", "material", "mesh"];
 /// Lists of tables.
 pub(super) const LISTS: &[&str] = &["shape", "instance", "light"];
 
-pub(super) const FILM: &[&str] =
-    &["size", "crop", "filter", "filter_radius", "exposure", "tone_curve", "png_bits", "transparent"];
+pub(super) const FILM: &[&str] = &[
+    "size",
+    "crop",
+    "filter",
+    "filter_radius",
+    "filter_b",
+    "filter_c",
+    "filter_tau",
+    "exposure",
+    "tone_curve",
+    "png_bits",
+    "transparent",
+];
 
 pub(super) const RENDER: &[&str] = &[
     "spp",
@@ -104,6 +115,7 @@ const IMAGE: &[&str] = &[
     "scale",
     "invert",
     "mapping",
+    "uv_set",
     "mapping_space",
     "mapping_transform",
     "pole",
@@ -130,6 +142,7 @@ const STACK: &[&str] = &[
 const MAPPED: &[&str] = &[
     "value",
     "mapping",
+    "uv_set",
     "mapping_space",
     "mapping_transform",
     "pole",
@@ -141,6 +154,7 @@ const MAPPED: &[&str] = &[
 /// Keys that place any texture that is looked up by u and v.
 pub(super) const MAPPING: &[&str] = &[
     "mapping",
+    "uv_set",
     "mapping_space",
     "mapping_transform",
     "pole",
@@ -202,6 +216,7 @@ pub(super) const TEXTURE: Kinds = Kinds {
         ("stack", STACK),
         ("glsl", &["file", "source", "parameters", "max"]),
         ("constant", &["color"]),
+        ("vertex_color", &["channel"]),
         ("checker", &["even", "odd", "dimensions", "space", "transform", "filter_width"]),
         ("noise", NOISE),
         ("fbm", FRACTAL),
@@ -255,6 +270,7 @@ pub(super) const MATERIAL: Kinds = Kinds {
         "opacity",
         "opacity_cutoff",
         "filter_color",
+        "sides",
         "bump",
         "normal_map",
         "soften_terminator",
@@ -283,8 +299,19 @@ pub(super) const NORMAL_MAP: &[&str] = &["texture", "green", "strength", "tangen
 pub(super) const DISPLACEMENT: &[&str] =
     &["texture", "height", "offset", "direction", "edge_length", "edge_pixels", "max_triangles"];
 
-pub(super) const MESH: &[&str] =
-    &["displacement", "file", "materials", "positions", "triangles", "polygons", "normals", "uvs", "smooth"];
+pub(super) const MESH: &[&str] = &[
+    "displacement",
+    "file",
+    "materials",
+    "positions",
+    "triangles",
+    "polygons",
+    "normals",
+    "uvs",
+    "uvs1",
+    "colors",
+    "smooth",
+];
 
 const SPHERE: &[&str] = &["center", "radius", "pole", "meridian", "displacement"];
 const DISK: &[&str] = &["center", "normal", "radius", "meridian"];
@@ -300,12 +327,18 @@ pub(super) const INSTANCE: &[&str] = &["mesh", "material", "transform", "transfo
 /// Steps of a `transform`.
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];
 
+const SPOT: &[&str] =
+    &["position", "target", "direction", "up", "intensity", "scale", "power", "cone_angle", "falloff_angle"];
+const PROJECTION: &[&str] =
+    &["position", "target", "direction", "up", "intensity", "scale", "power", "fov", "fov_axis", "aspect"];
+
 pub(super) const LIGHT: Kinds = Kinds {
     common: &["kind"],
     kinds: &[
-        ("point", &["position", "intensity"]),
-        ("spot", &["position", "target", "direction", "intensity", "cone_angle", "falloff_angle"]),
-        ("distant", &["direction", "from", "irradiance"]),
+        ("point", &["position", "intensity", "scale", "power", "mapping", "rotate", "transform"]),
+        ("spot", SPOT),
+        ("projection", PROJECTION),
+        ("distant", &["direction", "from", "up", "irradiance", "scale"]),
         (
             "sphere",
             &[
@@ -348,7 +381,7 @@ pub(super) const LIGHT: Kinds = Kinds {
     ],
 };
 
-pub(super) const ENVIRONMENT: &[&str] = &["color", "texture", "scale", "rotate", "transform"];
+pub(super) const ENVIRONMENT: &[&str] = &["color", "texture", "mapping", "scale", "rotate", "transform"];
 
 /// Keys of which an object has one at most. A file that includes another, and `--set`, replace one by the other.
 pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
@@ -365,7 +398,16 @@ pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
     ("environment", &[&["color", "texture"], &["rotate", "transform"]]),
     ("material", &[&["roughness", "alpha"], &["fresnel", "eta"], &["fresnel", "k"], &["reflectance", "eta"]]),
     ("shape", &[&["origin", "center"]]),
-    ("light", &[&["target", "direction"], &["direction", "from"], &["origin", "center"]]),
+    (
+        "light",
+        &[
+            &["target", "direction"],
+            &["direction", "from"],
+            &["origin", "center"],
+            &["scale", "power"],
+            &["rotate", "transform"],
+        ],
+    ),
 ];
 
 /// The rivals of a key of a table.

@@ -1,5 +1,6 @@
 //! `[[light]]` and `[environment]`.
 
+use super::camera::FOV_AXES;
 use super::document::Node;
 use super::keys::{ENVIRONMENT, LIGHT};
 use super::reader::Reader;
@@ -9,33 +10,86 @@ use super::transform::transform;
 use super::value::color;
 use super::view::View;
 use crate::Result;
-use crate::scene::{Emission, Environment, Light, Material, Shape, Surface, Value};
+use crate::scene::{
+    DirectionMapping, Emission, Environment, FovAxis, Handle, Light, LightKind, Material, Shape, Strength,
+    Surface, Texture, Value, Wrap, facing,
+};
 use glam::{Mat3, Vec3};
 
 /// How far a matrix may be from a rotation.
 const ROTATION_TOLERANCE: f32 = 1e-4;
 
+const MAPPINGS: [(&str, DirectionMapping); 2] =
+    [("equirectangular", DirectionMapping::Equirectangular), ("equal_area", DirectionMapping::EqualArea)];
+
 impl Reader<'_> {
     pub fn light(&mut self, index: usize, node: &Node) -> Result<()> {
         let name = format!("light {index}");
         let (view, kind) = View::of_kind(self.sources, node, name.clone(), &LIGHT)?;
-        let power = |key| color(view.need(key)?, Limits::AtLeast(0.0));
-        let light = match kind {
-            "point" => Light::Point {
-                position: view.need("position")?.vec3(Limits::Finite)?,
-                intensity: power("intensity")?,
-            },
-            "spot" => spot(&view, power("intensity")?)?,
+        let key = if kind == "distant" { "irradiance" } else { "intensity" };
+        let intensity = || self.color(view.need(key)?, Limits::AtLeast(0.0));
+        let (kind, intensity, world_from_light) = match kind {
+            "point" => {
+                let mapping = view.choice_or("mapping", DirectionMapping::default(), &MAPPINGS)?;
+                let position = view.need("position")?.vec3(Limits::Finite)?;
+                let intensity = intensity()?;
+                (LightKind::Point { position, mapping }, self.on_sphere(intensity, mapping), rotation(&view)?)
+            }
+            "spot" => {
+                let (position, frame) = aimed(&view)?;
+                (spot(&view, position)?, intensity()?, frame)
+            }
+            "projection" => {
+                let (position, frame) = aimed(&view)?;
+                let intensity = intensity()?;
+                (self.projector(&view, position, &intensity)?, intensity, frame)
+            }
             "distant" => {
                 let item = view.need_either("direction", "from")?;
                 let along = item.direction()?;
                 let direction = if view.get("from").is_some() { -along } else { along };
-                Light::Distant { direction, irradiance: power("irradiance")? }
+                (LightKind::Distant, intensity()?, upright(&view, direction)?)
             }
             _ => return self.area_light(&view, kind, name),
         };
-        self.scene.lights.push(light);
+        let strength = strength(&view)?;
+        self.scene.lights.push(Light { kind, intensity, strength, world_from_light });
         Ok(())
+    }
+
+    /// A picture that is seen on a sphere goes on beyond its edges as the sphere does.
+    fn on_sphere(&mut self, value: Value<Vec3>, mapping: DirectionMapping) -> Value<Vec3> {
+        let Value::Texture(handle) = value else { return value };
+        match &self.scene.textures[handle] {
+            Texture::Image(image)
+                if mapping == DirectionMapping::EqualArea && image.wrap == [Wrap::Repeat; 2] =>
+            {
+                let mut image = image.clone();
+                image.wrap = [Wrap::Octahedral; 2];
+                let name = format!("{} on a sphere", self.scene.textures.name(handle));
+                Value::Texture(self.scene.textures.add(&name, Texture::Image(image)))
+            }
+            _ => value,
+        }
+    }
+
+    fn projector(&self, view: &View<'_>, position: Vec3, intensity: &Value<Vec3>) -> Result<LightKind> {
+        Ok(LightKind::Projection {
+            position,
+            fov: view.f32_or("fov", 40.0, Limits::Between(0.0, 180.0))?,
+            fov_axis: view.choice_or("fov_axis", FovAxis::Vertical, &FOV_AXES)?,
+            aspect: match view.get("aspect") {
+                Some(item) => item.f32(Limits::Above(0.0))?,
+                None => intensity.texture().map_or(1.0, |texture| self.aspect(texture)),
+            },
+        })
+    }
+
+    /// Width over height of the picture of a texture; 1 of others.
+    fn aspect(&self, texture: Handle<Texture>) -> f32 {
+        let Texture::Image(texture) = &self.scene.textures[texture] else { return 1.0 };
+        let image = &self.scene.images[texture.image];
+        image.width as f32 / image.height as f32
     }
 
     /// A shape that reflects nothing and shines.
@@ -57,40 +111,66 @@ impl Reader<'_> {
             Some(name) => Value::Texture(self.textures.find(name)?),
             None => Value::Constant(color(item, Limits::AtLeast(0.0))?),
         };
+        let mapping = view.choice_or("mapping", DirectionMapping::default(), &MAPPINGS)?;
+        let radiance = self.on_sphere(radiance, mapping);
         let scale = view.f32_or("scale", 1.0, Limits::AtLeast(0.0))?;
-        let world_from_environment = match view.either("rotate", "transform")? {
-            None => Mat3::IDENTITY,
-            Some(item) if view.get("rotate").is_some() => {
-                Mat3::from_rotation_y(item.f32(Limits::Finite)?.to_radians())
-            }
-            Some(item) => {
-                let map = transform(item)?;
-                let turn = Mat3::from(map.matrix3);
-                let turns = (turn * turn.transpose()).abs_diff_eq(Mat3::IDENTITY, ROTATION_TOLERANCE);
-                if !turns || turn.determinant() < 0.0 || Vec3::from(map.translation) != Vec3::ZERO {
-                    return Err(item
-                        .error("the `transform` of the environment is more than a rotation")
-                        .help("use `rotate` steps only"));
-                }
-                turn
-            }
-        };
-        self.scene.environment = Some(Environment { radiance, scale, world_from_environment });
+        let world_from_environment = rotation(&view)?;
+        self.scene.environment = Some(Environment { radiance, scale, world_from_environment, mapping });
         Ok(())
     }
 }
 
-fn spot(view: &View<'_>, intensity: Vec3) -> Result<Light> {
+/// What `rotate` or `transform` turns.
+fn rotation(view: &View<'_>) -> Result<Mat3> {
+    let Some(item) = view.either("rotate", "transform")? else { return Ok(Mat3::IDENTITY) };
+    if view.get("rotate").is_some() {
+        return Ok(Mat3::from_rotation_y(item.f32(Limits::Finite)?.to_radians()));
+    }
+    let map = transform(item)?;
+    let turn = Mat3::from(map.matrix3);
+    let turns = (turn * turn.transpose()).abs_diff_eq(Mat3::IDENTITY, ROTATION_TOLERANCE);
+    if !turns || turn.determinant() < 0.0 || Vec3::from(map.translation) != Vec3::ZERO {
+        return Err(item
+            .error(format!("the `transform` of {} is more than a rotation", view.what))
+            .help("use `rotate` steps only"));
+    }
+    Ok(turn)
+}
+
+fn strength(view: &View<'_>) -> Result<Strength> {
+    Ok(match view.either("scale", "power")? {
+        Some(item) if view.get("power").is_some() => Strength::Power(item.f32(Limits::AtLeast(0.0))?),
+        Some(item) => Strength::Scale(item.f32(Limits::AtLeast(0.0))?),
+        None => Strength::Scale(1.0),
+    })
+}
+
+/// Where a light is, and the rotation that aims it.
+fn aimed(view: &View<'_>) -> Result<(Vec3, Mat3)> {
     let position = view.need("position")?.vec3(Limits::Finite)?;
     let item = view.need_either("target", "direction")?;
     let direction = if view.get("target").is_some() {
         let target = item.vec3(Limits::Finite)?;
         let along = (target.as_dvec3() - position.as_dvec3()).try_normalize();
-        along.ok_or_else(|| item.error("the spot light aims at its own position"))?.as_vec3()
+        along.ok_or_else(|| item.error(format!("{} aims at its own position", view.what)))?.as_vec3()
     } else {
         item.direction()?
     };
+    Ok((position, upright(view, direction)?))
+}
+
+/// The rotation of a light along a direction, with `up` up.
+fn upright(view: &View<'_>, direction: Vec3) -> Result<Mat3> {
+    match view.get("up") {
+        Some(item) => facing(direction, item.direction()?).ok_or_else(|| {
+            item.error("`up` is parallel to the direction of the light").help("turn one of them")
+        }),
+        None => Ok(facing(direction, Vec3::Y).or_else(|| facing(direction, Vec3::NEG_Z)).unwrap_or_default()),
+    }
+}
+
+fn spot(view: &View<'_>, position: Vec3) -> Result<LightKind> {
     let cone_angle = view.f32_or("cone_angle", 30.0, Limits::Between(0.0, 180.0))?;
     let falloff_angle = view.f32_or("falloff_angle", cone_angle.min(5.0), Limits::From(0.0, cone_angle))?;
-    Ok(Light::Spot { position, direction, intensity, cone_angle, falloff_angle })
+    Ok(LightKind::Spot { position, cone_angle, falloff_angle })
 }

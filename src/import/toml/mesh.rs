@@ -7,11 +7,11 @@ use super::text::{Limits, shown, suggest};
 use super::view::{Item, View};
 use crate::Result;
 use crate::scene::{Handle, Material, Mesh, MeshPart};
-use glam::Vec2;
+use glam::{Vec2, Vec4};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Keys that only inline meshes have.
-const INLINE: [&str; 5] = ["positions", "triangles", "polygons", "normals", "uvs"];
+const INLINE: [&str; 7] = ["positions", "triangles", "polygons", "normals", "uvs", "uvs1", "colors"];
 
 impl Reader<'_> {
     pub fn mesh(&mut self, entry: &Entry) -> Result<()> {
@@ -104,10 +104,16 @@ fn inline_mesh(view: &View<'_>) -> Result<Mesh> {
         same_count(item, normals.len(), count)?;
         mesh.normals = normals.map(|normal| normal.direction()).collect::<Result<_>>()?;
     }
-    if let Some(item) = view.get("uvs") {
-        let uvs = item.list("a list of texture coordinates [u, v]")?;
-        same_count(item, uvs.len(), count)?;
-        mesh.uvs = uvs.map(|uv| uv.vec2(Limits::Finite)).collect::<Result<Vec<Vec2>>>()?;
+    for (key, uvs) in [("uvs", &mut mesh.uvs), ("uvs1", &mut mesh.uvs1)] {
+        let Some(item) = view.get(key) else { continue };
+        let list = item.list("a list of texture coordinates [u, v]")?;
+        same_count(item, list.len(), count)?;
+        *uvs = list.map(|uv| uv.vec2(Limits::Finite)).collect::<Result<Vec<Vec2>>>()?;
+    }
+    if let Some(item) = view.get("colors") {
+        let colors = item.list("a list of colours")?;
+        same_count(item, colors.len(), count)?;
+        mesh.colors = colors.map(vertex_color).collect::<Result<_>>()?;
     }
     if view.get("triangles").is_none() && view.get("polygons").is_none() {
         return Err(view
@@ -138,6 +144,14 @@ fn inline_mesh(view: &View<'_>) -> Result<Mesh> {
     };
     mesh.parts.push(MeshPart { name: String::new(), triangles: 0..end, material: None });
     Ok(mesh)
+}
+
+/// A colour, or red, green, blue and alpha.
+fn vertex_color(item: Item<'_>) -> Result<Vec4> {
+    if item.is_list() && item.list("a list")?.len() == 4 {
+        return item.vec4(Limits::AtLeast(0.0));
+    }
+    super::value::color(item, Limits::AtLeast(0.0)).map(|color| color.extend(1.0))
 }
 
 /// Cuts a convex polygon into triangles that share its first corner.

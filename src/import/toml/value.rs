@@ -6,6 +6,7 @@ use super::reader::Reader;
 use super::text::{Limits, shown};
 use super::view::{Item, View};
 use crate::Result;
+use crate::import::srgb::linear_from_srgb;
 use crate::scene::{Handle, Texture, Value};
 use glam::Vec3;
 
@@ -65,11 +66,6 @@ fn hex_color(text: &str) -> Option<Vec3> {
     let rgb = u32::from_str_radix(digits, 16).ok()?;
     let channel = |shift: u32| linear_from_srgb(((rgb >> shift) & 255) as f32 / 255.0);
     Some(Vec3::new(channel(16), channel(8), channel(0)))
-}
-
-/// IEC 61966-2-1.
-fn linear_from_srgb(value: f32) -> f32 {
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::document::{Data, Entry, Node, Sources, Spot, Table};
 use super::keys::Kinds;
 use super::text::{Limits, closest, number, shown, suggest};
 use crate::{Error, Result};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use std::fmt;
 use std::path::PathBuf;
 
@@ -317,6 +317,10 @@ impl<'a> Item<'a> {
 
     pub fn vec3(&self, limits: Limits) -> Result<Vec3> {
         Ok(Vec3::from_array(self.numbers(limits)?))
+    }
+
+    pub fn vec4(&self, limits: Limits) -> Result<Vec4> {
+        Ok(Vec4::from_array(self.numbers(limits)?))
     }
 
     /// A vector that is not zero, scaled to unit length.

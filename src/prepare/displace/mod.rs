@@ -136,6 +136,16 @@ fn moved(
         positions: refined.vertices.iter().map(|v| places[v.place as usize]).collect(),
         normals,
         uvs: refined.vertices.iter().map(|v| v.uv).collect(),
+        uvs1: if mesh.uvs1.is_empty() {
+            Vec::new()
+        } else {
+            refined.vertices.iter().map(|v| v.uv1).collect()
+        },
+        colors: if mesh.colors.is_empty() {
+            Vec::new()
+        } else {
+            refined.vertices.iter().map(|v| v.color).collect()
+        },
         parts: mesh.parts.iter().zip(&refined.parts).map(part).collect(),
         triangles: refined.triangles,
         displacement: None,
@@ -157,6 +167,8 @@ fn point(
         position: world.transform_point3(position).to_array(),
         object_position: position.to_array(),
         uv: vertex.uv.to_array(),
+        uv1: vertex.uv1.to_array(),
+        vertex_color: vertex.color.to_array(),
         normal: normal.normalize_or_zero().to_array(),
         object_normal: directions[vertex.place as usize].to_array(),
         ..TexturePoint::default()

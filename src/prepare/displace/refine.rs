@@ -6,7 +6,7 @@
 use crate::layout::NONE;
 use crate::scene::Mesh;
 use crate::{Error, Result};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -15,6 +15,10 @@ use std::ops::Range;
 pub(super) struct Vertex {
     pub place: u32,
     pub uv: Vec2,
+    /// Second texture coordinates; as `uv` where the mesh has none.
+    pub uv1: Vec2,
+    /// Linear, with alpha; white where the mesh has none.
+    pub color: Vec4,
     /// Unit normal of the mesh, or 0 when it is flat.
     pub normal: Vec3,
 }
@@ -47,7 +51,13 @@ impl Refined {
                 places.push(position);
                 places.len() as u32 - 1
             });
-            vertices.push(Vertex { place, uv, normal: mesh.normals.get(i).copied().unwrap_or(Vec3::ZERO) });
+            vertices.push(Vertex {
+                place,
+                uv,
+                uv1: mesh.uvs1.get(i).copied().unwrap_or(uv),
+                color: mesh.colors.get(i).copied().unwrap_or(Vec4::ONE),
+                normal: mesh.normals.get(i).copied().unwrap_or(Vec3::ZERO),
+            });
             vertices.len() as u32 - 1
         };
         let triangles = if mesh.uvs.is_empty() {
@@ -156,9 +166,10 @@ fn ordered(a: u32, b: u32) -> (u32, u32) {
 
 /// The vertex in the middle of two.
 fn between(a: Vertex, b: Vertex, place: u32, position: Vec3, round: bool) -> Vertex {
+    let color = 0.5 * (a.color + b.color);
     if !round {
         let normal = (a.normal + b.normal).normalize_or(a.normal);
-        return Vertex { place, uv: 0.5 * (a.uv + b.uv), normal };
+        return Vertex { place, uv: 0.5 * (a.uv + b.uv), uv1: 0.5 * (a.uv1 + b.uv1), color, normal };
     }
     // On a sphere: by its place, on the side of the seam where its neighbours are. A pole has no longitude.
     let of = |v: Vertex| (v.uv.y > 0.0 && v.uv.y < 1.0).then_some(v.uv.x);
@@ -168,7 +179,7 @@ fn between(a: Vertex, b: Vertex, place: u32, position: Vec3, round: bool) -> Ver
     };
     let mut uv = sphere_uv(position);
     uv.x += (near - uv.x).round();
-    Vertex { place, uv, normal: position }
+    Vertex { place, uv, uv1: uv, color, normal: position }
 }
 
 /// Longitude about +z from +x and latitude of a point on the unit sphere, as texture coordinates.

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 /// 1 / λ² of red, green and blue in 1 / µm², as in `camera/lens_system.glsl`.
 pub const INVERSE_SQUARES: [f64; 3] = [2.67519, 3.31663, 4.63877];
 
-/// The buffer `lens`, and what the uniform block says of it. Lengths are in millimetres.
+/// The buffer `lens`, with all that the camera and the film look up, and what the uniform block says of it. Lengths are in millimetres.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LensTables {
     /// Words of the buffer.
@@ -40,6 +40,10 @@ pub struct LensTables {
     pub opening_cells: u32,
     /// Its columns and rows.
     pub opening_size: [u32; 2],
+    /// First word with cells of the pixel filter.
+    pub filter_cells: u32,
+    /// Magnitude of the pixel filter over its whole.
+    pub filter_weight: f32,
 }
 
 /// Fills the tables.

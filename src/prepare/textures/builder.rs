@@ -5,8 +5,8 @@ use super::range::Range;
 use super::shape::{Input, Shape};
 use crate::layout::TextureInput;
 use crate::prepare::atlas::{Atlas, Place, StackPlace};
-use crate::scene::{GlslTexture, Handle, Scene, Texture, Value};
-use glam::Vec3;
+use crate::scene::{Channel, GlslTexture, Handle, Scene, Texture, Value};
+use glam::{Vec3, Vec4};
 use std::collections::{BTreeMap, HashMap};
 
 /// A texture that has its place: shape, word of its record, its constant value if it has one, and its range.
@@ -56,6 +56,7 @@ impl<'a> Builder<'a> {
         let scene = self.scene;
         match &scene.textures[handle] {
             Texture::Constant(color) => self.constant(*color),
+            Texture::VertexColor(channel) => self.vertex_color(*channel),
             Texture::Image(texture) => {
                 let place = self.places[&handle];
                 let image = &scene.images[texture.image];
@@ -122,6 +123,26 @@ impl<'a> Builder<'a> {
         let mut words = Words::default();
         words.push(TextureInput { value: color.to_array(), at: 0 });
         self.keep(Shape::Constant, words, Some(color), Range::of(color))
+    }
+
+    /// Its range is that of all meshes; what has no colours is white.
+    fn vertex_color(&mut self, channel: Channel) -> Node {
+        let colors = || self.scene.meshes.iter().flat_map(|(_, _, mesh)| &mesh.colors);
+        let range = |color: &Vec4| {
+            Range::of(match channel {
+                Channel::Rgb => color.truncate(),
+                Channel::R => Vec3::splat(color.x),
+                Channel::G => Vec3::splat(color.y),
+                Channel::B => Vec3::splat(color.z),
+                Channel::A => Vec3::splat(color.w),
+            })
+        };
+        let count = colors().count().max(1) as f64;
+        let sum = |a: f64, b: f64| a + b;
+        let all = colors().map(range).reduce(|a, b| a.zip(b, f64::min, sum, f64::max));
+        let all = all.map_or(Range::of(Vec3::ONE), |all| Range { mean: all.mean / count, ..all });
+        let range = Range { min: all.min.min(1.0), max: all.max.max(1.0), ..all };
+        self.keep(Shape::VertexColor(channel), Words::default(), None, range)
     }
 
     /// A node with its inputs after its own words.

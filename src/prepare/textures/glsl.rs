@@ -4,7 +4,8 @@ use super::shape::{Input, NoiseShape, Place, Shape};
 use super::user;
 use crate::layout::{NodeNumber, NoiseSum as NoiseRecord, Pattern, Ramp, Record as _, TextureInput, Wall};
 use crate::scene::{
-    Coordinates, GlslTexture, Gradient, Metric, NoiseSum, Perlin, PerlinVariant, VeinKind, WorleyFeature,
+    Channel, Coordinates, GlslTexture, Gradient, Metric, NoiseSum, Perlin, PerlinVariant, VeinKind,
+    WorleyFeature,
 };
 use std::fmt::Write as _;
 
@@ -55,6 +56,16 @@ impl Shape {
                 format!("stack_texture(at + {}u, {}u, {point})", Pattern::WORDS, format.number())
             }
             Self::Constant => "texture_constant(at)".to_owned(),
+            Self::VertexColor(channel) => {
+                let lanes = match channel {
+                    Channel::Rgb => "rgb",
+                    Channel::R => "rrr",
+                    Channel::G => "ggg",
+                    Channel::B => "bbb",
+                    Channel::A => "aaa",
+                };
+                format!("vec4(context.vertex_color.{lanes}, context.vertex_color.a)")
+            }
             Self::Checker(place, dimensions, of) => {
                 let (point, of) = (place.point(), inputs(of));
                 match place.filtered {
@@ -284,8 +295,17 @@ const HEAD: &str = "// Generated from the textures of the scene.
 
 /// The file, with a function for each use of textures and the shapes that it may meet. A shape that is only ever an input of
 /// others has no case: on Mesa before 24.3 a case that no lane takes costs as much as any.
-pub(super) fn glsl(shapes: &[Shape], uses: &[(&str, Vec<bool>)], users: &[&GlslTexture]) -> String {
-    let mut text = String::from(HEAD);
+pub(super) fn glsl(
+    shapes: &[Shape],
+    uses: &[(&str, Vec<bool>)],
+    users: &[&GlslTexture],
+    octahedral: bool,
+) -> String {
+    let mut text = String::new();
+    if octahedral {
+        text.push_str("#define OCTAHEDRAL_PICTURES\n");
+    }
+    text.push_str(HEAD);
     let any = |is: fn(&Shape) -> bool| shapes.iter().any(is);
     for (file, used) in [
         ("pyramid", any(|shape| matches!(shape, Shape::Image(_, true)))),

@@ -2,25 +2,15 @@
 
 use super::range::Range;
 use crate::layout::{CHANNEL_A, CHANNEL_B, CHANNEL_G, CHANNEL_R, CHANNEL_RGB, CHANNEL_SHIFT};
-use crate::layout::{FLAG_INVERT, FLAG_NEAREST, ImageLevel, ImageTexture, LEVELS_SHIFT};
+use crate::layout::{FLAG_INVERT, FLAG_NEAREST, FLAG_OCTAHEDRAL, ImageLevel, ImageTexture, LEVELS_SHIFT};
 use crate::layout::{WRAP_BLACK, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT, WRAP_V_SHIFT};
 use crate::prepare::atlas::{Atlas, Place, Reader, half_size, level_count};
-use crate::scene::{self, Channel, TexelFilter, Wrap};
+use crate::scene::{self, Channel, Handle, Scene, TexelFilter, Texture, UvTransform, Wrap};
+use glam::DVec2;
 
 /// Mean brightness over the picture, for the power of a light; and its largest value, for the unit of the sums.
 pub(super) fn brightness(texture: &scene::ImageTexture, image: &scene::Image) -> Range {
-    let read = Reader { image, decode: texture.color_space == scene::ColorSpace::Srgb };
-    let value = |x, y| {
-        let [r, g, b, a] = read.linear(x, y);
-        let rgb = match texture.channel {
-            Channel::Rgb => [r, g, b],
-            Channel::R => [r; 3],
-            Channel::G => [g; 3],
-            Channel::B => [b; 3],
-            Channel::A => [a; 3],
-        };
-        rgb.map(|c| f64::from(if texture.invert { 1.0 - c } else { c }) * f64::from(texture.scale))
-    };
+    let value = values(texture, image);
     let (mut sum, mut min, mut max) = (0.0_f64, f64::INFINITY, 0.0_f64);
     for y in 0..image.height {
         for x in 0..image.width {
@@ -31,6 +21,48 @@ pub(super) fn brightness(texture: &scene::ImageTexture, image: &scene::Image) ->
         }
     }
     Range { min: min.min(max), mean: sum / (f64::from(image.width) * f64::from(image.height)).max(1.0), max }
+}
+
+/// The colours of its texels, by column and row.
+fn values<'a>(
+    texture: &'a scene::ImageTexture,
+    image: &'a scene::Image,
+) -> impl Fn(u32, u32) -> [f64; 3] + 'a {
+    let read = Reader { image, decode: texture.color_space == scene::ColorSpace::Srgb };
+    move |x, y| {
+        let [r, g, b, a] = read.linear(x, y);
+        let rgb = match texture.channel {
+            Channel::Rgb => [r, g, b],
+            Channel::R => [r; 3],
+            Channel::G => [g; 3],
+            Channel::B => [b; 3],
+            Channel::A => [a; 3],
+        };
+        rgb.map(|c| f64::from(if texture.invert { 1.0 - c } else { c }) * f64::from(texture.scale))
+    }
+}
+
+/// Mean brightness of a texture over uv with the weight of each uv, texel by texel; none when it is no picture that fills the
+/// unit square once, or when nothing has weight.
+pub(in crate::prepare) fn picture_mean(
+    scene: &Scene,
+    handle: Handle<Texture>,
+    weight: impl Fn(DVec2) -> f64,
+) -> Option<f64> {
+    let Texture::Image(texture) = &scene.textures[handle] else { return None };
+    let image = &scene.images[texture.image];
+    let value = values(texture, image);
+    let (mut sum, mut whole) = (0.0, 0.0);
+    for y in 0..image.height {
+        for x in 0..image.width {
+            let at =
+                (DVec2::new(x.into(), y.into()) + 0.5) / DVec2::new(image.width.into(), image.height.into());
+            let weight = weight(DVec2::new(at.x, 1.0 - at.y));
+            sum += weight * value(x, y).into_iter().sum::<f64>() / 3.0;
+            whole += weight;
+        }
+    }
+    Some(sum / whole).filter(|mean| mean.is_finite() && texture.uv == UvTransform::default())
 }
 
 /// The levels of its pyramid, the picture first, which follow its record; none when it is filtered otherwise.
@@ -76,7 +108,8 @@ pub(super) fn record(
 pub(super) fn wrap_mode(wrap: Wrap) -> u32 {
     match wrap {
         Wrap::Repeat => WRAP_REPEAT,
-        Wrap::Clamp => WRAP_CLAMP,
+        // The flag takes its place
+        Wrap::Clamp | Wrap::Octahedral => WRAP_CLAMP,
         Wrap::Mirror => WRAP_MIRROR,
         Wrap::Black => WRAP_BLACK,
     }
@@ -93,9 +126,11 @@ pub(super) fn image_flags(texture: &scene::ImageTexture) -> u32 {
     };
     let nearest = if texture.filter == TexelFilter::Nearest { FLAG_NEAREST } else { 0 };
     let invert = if texture.invert { FLAG_INVERT } else { 0 };
+    let octahedral = if texture.wrap.contains(&Wrap::Octahedral) { FLAG_OCTAHEDRAL } else { 0 };
     wrap_mode(texture.wrap[0])
         | wrap_mode(texture.wrap[1]) << WRAP_V_SHIFT
         | nearest
         | invert
+        | octahedral
         | channel << CHANNEL_SHIFT
 }

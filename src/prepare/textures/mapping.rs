@@ -44,6 +44,7 @@ impl MappingShape {
         let mut body = format!("uint input_at = texture_input(at + {}u); ", MappingRecord::WORDS);
         let name = match self.kind {
             MappingKind::Uv => "uv",
+            MappingKind::Uv1 => "uv1",
             MappingKind::Spherical => "spherical",
             MappingKind::Cylindrical => "cylindrical",
             MappingKind::Planar => "planar",

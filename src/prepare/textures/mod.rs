@@ -18,10 +18,11 @@ mod user;
 
 use super::atlas::Atlas;
 use super::{Prepared, rows};
-use crate::scene::{Handle, Scene, TexelFilter, Texture, Warp};
+use crate::scene::{Handle, MappingKind, Scene, TexelFilter, Texture, Warp, Wrap};
 use crate::{Error, Result};
 use builder::{Builder, Node};
 use glsl::glsl;
+pub(super) use image::picture_mean;
 use range::Range;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -38,6 +39,10 @@ pub struct PreparedTextures {
     pub references: Vec<u32>,
     /// Whether a value depends on the width of the pixel.
     pub footprint: bool,
+    /// Whether one depends on the colours of vertices.
+    pub vertex_color: bool,
+    /// Whether one depends on the second set of texture coordinates.
+    pub uv1: bool,
 }
 
 /// References of the textures of a scene, and how bright they are.
@@ -81,9 +86,15 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
     let seen = materials().flat_map(|material| material.textures()).chain(maps).collect();
     let (textures, references) = build(scene, &uses(scene), seen)?;
     out.features.footprint |= textures.footprint;
+    (out.features.vertex_color, out.features.uv1) = (textures.vertex_color, textures.uv1);
     out.features.timed_textures = scene.textures.iter().any(|(_, _, texture)| sees_time(texture));
     (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
     Ok(references)
+}
+
+/// Whether a texture itself is a picture that is an octahedral map.
+fn is_octahedral(texture: &Texture) -> bool {
+    matches!(texture, Texture::Image(image) if image.wrap.contains(&Wrap::Octahedral))
 }
 
 /// Whether the values of a texture itself may depend on the time.
@@ -91,6 +102,24 @@ fn sees_time(texture: &Texture) -> bool {
     match texture {
         Texture::Noise(noise) => noise.perlin.dimensions == 4 && noise.w[1] != 0.0,
         Texture::Glsl(texture) => texture.source.contains("time"),
+        _ => false,
+    }
+}
+
+/// Whether the values of a texture itself may depend on the colours of vertices.
+fn sees_vertex_color(texture: &Texture) -> bool {
+    match texture {
+        Texture::VertexColor(_) => true,
+        Texture::Glsl(texture) => texture.source.contains("vertex_color"),
+        _ => false,
+    }
+}
+
+/// Whether they may depend on the second set of texture coordinates.
+fn sees_uv1(texture: &Texture) -> bool {
+    match texture {
+        Texture::Mapped { mapping, .. } => mapping.kind == MappingKind::Uv1,
+        Texture::Glsl(texture) => texture.source.contains("uv1"),
         _ => false,
     }
 }
@@ -157,9 +186,16 @@ fn build(scene: &Scene, uses: &[Use], seen: Vec<Handle<Texture>>) -> Result<(Pre
     let textures = PreparedTextures {
         records: words,
         texels: atlas.into_words(),
-        glsl: glsl(&shapes, &roots, &users),
+        glsl: glsl(
+            &shapes,
+            &roots,
+            &users,
+            scene.textures.iter().any(|(_, _, texture)| is_octahedral(texture)),
+        ),
         references: references.references.clone(),
         footprint: shapes.iter().any(|shape| shape.sees_footprint()),
+        vertex_color: scene.textures.iter().any(|(_, _, texture)| sees_vertex_color(texture)),
+        uv1: scene.textures.iter().any(|(_, _, texture)| sees_uv1(texture)),
     };
     Ok((textures, references))
 }
@@ -193,5 +229,6 @@ fn uses(scene: &Scene) -> [Use; 3] {
     direct.extend(details().filter_map(|detail| Some(detail.normal_map?.texture)));
     direct.extend(materials().flat_map(|material| material.textures()));
     direct.extend(scene.environment.iter().filter_map(|environment| environment.texture()));
+    direct.extend(scene.lights.iter().filter_map(|light| light.intensity.texture()));
     [("texture_evaluate", direct), ("texture_opacity", opacity), ("texture_height", heights)]
 }

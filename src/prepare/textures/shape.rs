@@ -2,7 +2,9 @@
 
 use super::mapping::MappingShape;
 use crate::prepare::atlas::Format;
-use crate::scene::{Coordinates, Gradient, Metric, NoiseSum, PatternSpace, Perlin, VeinKind, WorleyFeature};
+use crate::scene::{
+    Channel, Coordinates, Gradient, Metric, NoiseSum, PatternSpace, Perlin, VeinKind, WorleyFeature,
+};
 
 /// A node of a texture tree. Its inputs are shapes with smaller numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,6 +15,7 @@ pub(super) enum Shape {
     User(u32),
     Stack(Format, Coordinates),
     Constant,
+    VertexColor(Channel),
     Checker(Place, u32, [Input; 2]),
     Noise(NoiseShape, Place, [Input; 2]),
     ValueNoise(u32, Place, [Input; 2]),

@@ -25,6 +25,8 @@ pub enum Wrap {
     Mirror,
     /// Zero, also in alpha.
     Black,
+    /// What comes next on the sphere of an [equal-area map](crate::scene::DirectionMapping::EqualArea); along u and v alike.
+    Octahedral,
 }
 
 /// How stored numbers become linear light. Alpha is always linear.
@@ -117,4 +119,25 @@ pub struct Image {
     pub height: u32,
     /// `width · height` texels, row by row from the top.
     pub texels: Texels,
+}
+
+impl Image {
+    /// The texel of an index as red, green, blue and alpha, 1 where an integer is largest. Colours of sRGB become linear; alpha
+    /// is linear always.
+    pub fn linear(&self, index: usize, space: ColorSpace) -> [f32; 4] {
+        let [r, g, b, a] = match &self.texels {
+            Texels::Rgba8(texels) => texels[index].map(|c| f32::from(c) / 255.0),
+            Texels::Rgba16(texels) => texels[index].map(|c| f32::from(c) / 65535.0),
+            Texels::RgbaF32(texels) => texels[index],
+        };
+        match space {
+            ColorSpace::Srgb => [srgb_decode(r), srgb_decode(g), srgb_decode(b), a],
+            ColorSpace::Linear => [r, g, b, a],
+        }
+    }
+}
+
+/// IEC 61966-2-1.
+fn srgb_decode(c: f32) -> f32 {
+    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }

@@ -7,6 +7,8 @@ use glam::Affine3A;
 pub enum MappingKind {
     /// Those of the surface.
     Uv,
+    /// The second set of the surface, or the first where it has no second.
+    Uv1,
     /// Longitude about z from x in turns, and latitude: 0 at −z, 1 at +z.
     Spherical,
     /// Longitude, and z.

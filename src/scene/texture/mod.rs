@@ -47,6 +47,8 @@ pub enum Texture {
     Stack(StackTexture),
     /// The same everywhere.
     Constant(Vec3),
+    /// The colour of the vertices of a mesh, linear between them; white on what has none.
+    VertexColor(Channel),
     /// Unit squares or cubes in turn, the one that begins at the origin even.
     Checker {
         /// 2 for squares in x and y, 3 for cubes.
@@ -170,7 +172,12 @@ impl Texture {
     pub fn inputs(&self) -> impl Iterator<Item = Handle<Texture>> {
         let two = |a: &Value<Vec3>, b: &Value<Vec3>| [a.texture(), b.texture(), None];
         let inputs = match self {
-            Self::Image(_) | Self::Glsl(_) | Self::Stack(_) | Self::Constant(_) | Self::Veins(_) => [None; 3],
+            Self::Image(_)
+            | Self::Glsl(_)
+            | Self::Stack(_)
+            | Self::Constant(_)
+            | Self::VertexColor(_)
+            | Self::Veins(_) => [None; 3],
             Self::Checker { even: a, odd: b, .. }
             | Self::Noise(Noise { low: a, high: b, .. })
             | Self::ValueNoise(ValueNoise { low: a, high: b, .. })

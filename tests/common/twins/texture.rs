@@ -24,7 +24,8 @@ pub fn wrap_index(i: i32, n: i32, mode: u32) -> (i32, bool) {
 pub fn wrapped(i: i64, n: i64, wrap: Wrap) -> Option<usize> {
     let inside = match wrap {
         Wrap::Repeat => i.rem_euclid(n),
-        Wrap::Clamp => i.clamp(0, n - 1),
+        // Of an octahedral picture u and v are folded together first
+        Wrap::Clamp | Wrap::Octahedral => i.clamp(0, n - 1),
         Wrap::Mirror => {
             let j = i.rem_euclid(2 * n);
             if j < n { j } else { 2 * n - 1 - j }

@@ -46,6 +46,7 @@ fn materials_take_every_key() {
     assert_eq!(detail.normal_map, Some(map));
     assert!(!detail.soften_terminator && !detail.keep_visible);
     assert_eq!(material("paint").detail, Detail::default());
+    assert_eq!(material("white").detail, Detail { sides: Sides::Front, ..Detail::default() });
     assert_eq!(
         material("paint").surface,
         Surface::Phong {

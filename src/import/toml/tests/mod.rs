@@ -1,8 +1,10 @@
 //! The reader as a whole, on files in memory. Here: defaults, and a scene that has every key.
 
+mod corners;
 mod damage;
-mod exposure;
 mod files;
+mod film;
+mod lights;
 mod manual;
 mod materials;
 mod patterns;
@@ -11,7 +13,7 @@ use super::{Assets, Warning, read_scene_with};
 use crate::import::Spacing;
 use crate::scene::*;
 use crate::{Error, Result};
-use glam::{Affine3A, Mat3, Vec2, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -104,7 +106,7 @@ fn film_and_render_take_every_key() {
         width: 320,
         height: 200,
         crop: Some(Rect { x0: 10, y0: 20, x1: 300, y1: 200 }),
-        filter: Filter { kind: FilterKind::Gaussian, radius: 2.0 },
+        filter: Filter { kind: FilterKind::Mitchell { b: 0.5, c: 0.25 }, radius: 2.0 },
         exposure: Exposure { meter: Meter::Shot(shot), stops: -1.5 },
         tone_curve: ToneCurve::Agx,
         png_bits: 16,
@@ -173,12 +175,6 @@ fn cameras_of_every_kind() {
     };
     assert_eq!((lens.stop_diameter, lens.sensor_diagonal, lens.opening.blades), (5.0, 43.0, 5));
     assert_eq!((lens.dispersion, lens.measure), (false, Measure::Irradiance));
-}
-
-#[test]
-fn filters_have_radii_of_their_own() {
-    let radius = |name: &str| read(&format!("[film]\nfilter = \"{name}\"")).unwrap().0.film.filter.radius;
-    assert_eq!(["box", "tent", "gaussian", "blackman_harris"].map(radius), [0.5, 1.0, 1.5, 1.5]);
 }
 
 #[test]
@@ -359,41 +355,4 @@ fn meshes_and_instances_take_every_key() {
     let sphere = &scene.meshes[scene.instances[0].mesh];
     assert!(sphere.round && sphere.displacement == Some(moved));
     assert_eq!(mesh("moved").displacement.unwrap().edge, EdgeLimit::Pixels(3.0));
-}
-
-#[test]
-fn lights_take_every_key() {
-    let scene = all();
-    assert_eq!(scene.lights[0], Light::Point { position: Vec3::Y, intensity: Vec3::splat(3.0) });
-    let spot = |direction, cone_angle, falloff_angle| Light::Spot {
-        position: Vec3::Y,
-        direction,
-        intensity: Vec3::ONE,
-        cone_angle,
-        falloff_angle,
-    };
-    assert_eq!(scene.lights[1], spot(-Vec3::Y, 20.0, 3.0));
-    assert_eq!(scene.lights[2], spot(Vec3::X, 30.0, 5.0));
-    let distant = Light::Distant { direction: -Vec3::Y, irradiance: Vec3::ONE };
-    assert_eq!(scene.lights[3..], [distant.clone(), distant]);
-    let areas = &scene.shapes[5..];
-    assert_eq!(areas.len(), 3);
-    for area in areas {
-        let material = &scene.materials[area.material];
-        assert_eq!(material.surface, Surface::Diffuse { color: Value::Constant(Vec3::ZERO) });
-        assert_eq!(material.emission.as_ref().unwrap().radiance, Value::Constant(Vec3::splat(9.0)));
-        assert!(material.emission.as_ref().unwrap().two_sided);
-    }
-    assert_eq!(areas[0].name, "light 6");
-    let environment = scene.environment.unwrap();
-    assert_eq!((environment.radiance.texture().is_some(), environment.scale), (true, 2.0));
-    // Seen from above, counter-clockwise takes −z (ahead) to −x (left).
-    assert!((environment.world_from_environment * -Vec3::Z).abs_diff_eq(-Vec3::X, 1e-6));
-    let (scene, _) =
-        read("[environment]\ncolor = 2\ntransform = [{ rotate = [0, 2, 0], angle = 90 }]").unwrap();
-    let same = scene.environment.unwrap();
-    assert_eq!(same.radiance, Value::Constant(Vec3::splat(2.0)));
-    assert!(
-        same.world_from_environment.abs_diff_eq(Mat3::from_rotation_y(std::f32::consts::FRAC_PI_2), 1e-6)
-    );
 }

@@ -40,7 +40,9 @@ impl Reader<'_> {
 
 fn wrap(item: Item<'_>) -> Result<[Wrap; 2]> {
     if !item.is_list() {
-        return item.choice(&WRAPS).map(|both| [both; 2]);
+        let [repeat, clamp, mirror, black] = WRAPS;
+        let all = [repeat, clamp, mirror, black, ("octahedral", Wrap::Octahedral)];
+        return item.choice(&all).map(|both| [both; 2]);
     }
     let choices: Vec<_> = item.list("a list")?.map(|one| one.choice(&WRAPS)).collect::<Result<_>>()?;
     <[Wrap; 2]>::try_from(choices).map_err(|_| item.mismatch("one word or two"))
@@ -52,8 +54,6 @@ fn uv_scale(item: Item<'_>) -> Result<Vec2> {
 
 /// How the numbers of a picture are meant, which channel is given, the factor on it, and whether it is inverted.
 pub(super) fn shading(view: &View<'_>, image: &Image) -> Result<(ColorSpace, Channel, f32, bool)> {
-    let channels =
-        [("rgb", Channel::Rgb), ("r", Channel::R), ("g", Channel::G), ("b", Channel::B), ("a", Channel::A)];
     let usual = match image.texels {
         Texels::Rgba8(_) | Texels::Rgba16(_) => ColorSpace::Srgb,
         Texels::RgbaF32(_) => ColorSpace::Linear,
@@ -61,8 +61,15 @@ pub(super) fn shading(view: &View<'_>, image: &Image) -> Result<(ColorSpace, Cha
     let spaces = [("srgb", ColorSpace::Srgb), ("linear", ColorSpace::Linear)];
     Ok((
         view.choice_or("color_space", usual, &spaces)?,
-        view.choice_or("channel", Channel::Rgb, &channels)?,
+        channel(view)?,
         view.f32_or("scale", 1.0, Limits::AtLeast(0.0))?,
         view.bool_or("invert", false)?,
     ))
+}
+
+/// Which channel is given.
+pub(super) fn channel(view: &View<'_>) -> Result<Channel> {
+    let channels =
+        [("rgb", Channel::Rgb), ("r", Channel::R), ("g", Channel::G), ("b", Channel::B), ("a", Channel::A)];
+    view.choice_or("channel", Channel::Rgb, &channels)
 }

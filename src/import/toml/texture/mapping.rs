@@ -21,7 +21,7 @@ const MAPPINGS: [(&str, MappingKind); 6] = [
 /// The mapping of a texture, when one of its keys is there.
 pub(super) fn mapping(view: &View<'_>) -> Result<Option<Mapping>> {
     let Some(first) = MAPPING.iter().find_map(|key| view.get(key)) else { return Ok(None) };
-    let kind = view.choice_or("mapping", MappingKind::Uv, &MAPPINGS)?;
+    let mut kind = view.choice_or("mapping", MappingKind::Uv, &MAPPINGS)?;
     for key in MAPPING.iter().filter(|key| !has_meaning(kind, key)) {
         if let Some(item) = view.get(key) {
             let name = MAPPINGS.iter().find(|(_, one)| *one == kind).map_or("", |(name, _)| name);
@@ -29,6 +29,9 @@ pub(super) fn mapping(view: &View<'_>) -> Result<Option<Mapping>> {
                 .error(format!("`{key}` has no meaning for the mapping \"{name}\""))
                 .help("remove it, or choose another `mapping`"));
         }
+    }
+    if view.u32_or("uv_set", 0, 0, 1)? == 1 {
+        kind = MappingKind::Uv1;
     }
     let spaces = [("object", MappingSpace::Object), ("world", MappingSpace::World)];
     let placed = view.get("mapping_transform").map_or(Ok(Affine3A::IDENTITY), transform)?;
@@ -60,6 +63,7 @@ fn turns(kind: MappingKind) -> bool {
 fn has_meaning(kind: MappingKind, key: &str) -> bool {
     match key {
         "mapping" => true,
+        "uv_set" => kind == MappingKind::Uv,
         "mapping_space" | "mapping_transform" => kind != MappingKind::Uv,
         "pole" | "meridian" | "pole_u" => turns(kind),
         "seam_blend" => turns(kind) || kind == MappingKind::Uv,

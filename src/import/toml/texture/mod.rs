@@ -47,6 +47,7 @@ impl Reader<'_> {
         let (view, kind) = View::of_kind(self.sources, &entry.node, what, &TEXTURE)?;
         Ok(match kind {
             "constant" => Texture::Constant(value::color(view.need("color")?, Limits::Finite)?),
+            "vertex_color" => Texture::VertexColor(image::channel(&view)?),
             "checker" => self.checker(&view)?,
             "noise" | "fbm" | "turbulence" | "ridged" | "windy" => self.noise(&view, kind)?,
             "value_noise" => self.value_noise(&view)?,

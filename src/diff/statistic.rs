@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use super::references::Estimate;
+use super::Estimate;
 use super::student::{critical_value, level_of_each};
 
 /// Chance that a test over all pixels finds one that is too far off in a correct picture.

@@ -1,4 +1,4 @@
-//! What decides how bright a picture is.
+//! `[film]`: exposure and filters.
 
 use super::{read, read_set};
 use crate::scene::{Exposure, Meter, Shot, ToneCurve};
@@ -39,4 +39,13 @@ fn a_lens_of_several_elements_has_its_own_f_number() {
     // Wide open: focal length 50.6757 mm
     assert!((4.0..6.0).contains(&f_number("").unwrap()));
     assert_eq!(f_number("measure = 'irradiance'"), None);
+}
+
+#[test]
+fn filters_have_radii_of_their_own() {
+    let radius = |name: &str| read(&format!("[film]\nfilter = \"{name}\"")).unwrap().0.film.filter.radius;
+    let names = ["box", "tent", "gaussian", "blackman_harris", "mitchell", "sinc"];
+    assert_eq!(names.map(radius), [0.5, 1.0, 1.5, 1.5, 2.0, 4.0]);
+    let error = read("[film]\nfilter = 'sinc'\nfilter_b = 0.5").unwrap_err().to_string();
+    assert!(error.contains("3:12: `filter_b` needs `filter = \"mitchell\"`"), "{error}");
 }

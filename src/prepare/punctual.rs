@@ -1,0 +1,128 @@
+//! Lights without extent: their records, and their power.
+
+use super::Features;
+use super::lights::{Entry, mean};
+use super::textures::{References, picture_mean};
+use crate::layout::{LIGHT_DISTANT, LIGHT_POINT, LIGHT_PROJECTION, LIGHT_SPOT, Light, NONE};
+use crate::scene::{self, DirectionMapping, LightKind, Scene, Strength, Value, half_frustum};
+use glam::{DVec2, Vec2, Vec3};
+use std::f64::consts::PI;
+
+/// Share of the mean of a texture in the power by which its light is chosen. Filtering brings light from texels to where
+/// their centres are not.
+const EVEN_SHARE: f64 = 0.02;
+
+/// What the kernels need for the lights of a scene.
+pub(super) fn note(scene: &Scene, features: &mut Features) {
+    for light in scene.lights.iter().filter(|light| light.intensity.texture().is_some()) {
+        features.textured_lights = true;
+        features.equal_area_lights |=
+            matches!(light.kind, LightKind::Point { mapping: DirectionMapping::EqualArea, .. });
+    }
+}
+
+/// A light before the table is built.
+pub(super) fn entry(scene: &Scene, textures: &References, light: &scene::Light) -> Entry {
+    let frame = light.world_from_light;
+    let (intensity, texture) = match light.intensity {
+        Value::Constant(color) => (color, NONE),
+        Value::Texture(handle) => (Vec3::ONE, textures.reference(handle)),
+    };
+    let base = Light {
+        texture,
+        edge_u: (-frame.z_axis).to_array(),
+        edge_v: frame.y_axis.to_array(),
+        ..Light::default()
+    };
+    let placed = match light.kind {
+        LightKind::Point { position, mapping } => Light {
+            kind: LIGHT_POINT,
+            position: position.to_array(),
+            extra: u32::from(mapping == DirectionMapping::EqualArea),
+            ..base
+        },
+        LightKind::Spot { position, cone_angle, falloff_angle } => {
+            let [a, b] = cone_cosines(cone_angle, falloff_angle);
+            Light { kind: LIGHT_SPOT, position: position.to_array(), a, b, ..base }
+        }
+        LightKind::Distant => Light { kind: LIGHT_DISTANT, ..base },
+        LightKind::Projection { position, fov, fov_axis, aspect } => {
+            let half = half_frustum(fov, fov_axis, aspect);
+            Light { kind: LIGHT_PROJECTION, position: position.to_array(), a: half.x, b: half.y, ..base }
+        }
+    };
+    let scale = scale(scene, textures, light);
+    let plain = plain_mean(textures, &light.intensity);
+    let bright = solid_angle(&light.kind).map(|angle| {
+        let mean = (1.0 - EVEN_SHARE) * mean_sent(scene, textures, light) + EVEN_SHARE * plain;
+        angle * mean.max(0.0) * f64::from(scale)
+    });
+    Entry { light: Light { radiance: (scale * intensity).to_array(), ..placed }, power: bright }
+}
+
+/// The factor on the intensity of a light.
+pub(super) fn scale(scene: &Scene, textures: &References, light: &scene::Light) -> f32 {
+    match light.strength {
+        Strength::Scale(scale) => scale,
+        Strength::Power(watts) => {
+            let one = solid_angle(&light.kind).unwrap_or(1.0) * mean_sent(scene, textures, light);
+            if one > 0.0 { (f64::from(watts) / one).min(f64::from(f32::MAX)) as f32 } else { 0.0 }
+        }
+    }
+}
+
+/// Cosines of the inner and the outer cone of a spot light.
+fn cone_cosines(cone_angle: f32, falloff_angle: f32) -> [f32; 2] {
+    [(cone_angle - falloff_angle).to_radians().cos(), cone_angle.to_radians().cos()]
+}
+
+/// The solid angle that a light fills in steradians, the soft edge of a spot counted by what it lets through; none for distant
+/// light.
+fn solid_angle(kind: &LightKind) -> Option<f64> {
+    match *kind {
+        LightKind::Point { .. } => Some(4.0 * PI),
+        LightKind::Spot { cone_angle, falloff_angle, .. } => {
+            let [inner, outer] = cone_cosines(cone_angle, falloff_angle);
+            Some(2.0 * PI * (1.0 - 0.5 * f64::from(inner + outer)))
+        }
+        LightKind::Distant => None,
+        LightKind::Projection { fov, fov_axis, aspect, .. } => {
+            let Vec2 { x, y } = half_frustum(fov, fov_axis, aspect);
+            let (x, y) = (f64::from(x), f64::from(y));
+            Some(4.0 * (x * y).atan2((1.0 + x * x + y * y).sqrt()))
+        }
+    }
+}
+
+fn plain_mean(textures: &References, intensity: &Value<Vec3>) -> f64 {
+    match *intensity {
+        Value::Constant(color) => mean(color),
+        Value::Texture(handle) => textures.mean(handle),
+    }
+}
+
+/// Mean of the intensity over the solid angle that a light fills: of a picture by its texels, of other textures without regard
+/// to where they are seen.
+fn mean_sent(scene: &Scene, textures: &References, light: &scene::Light) -> f64 {
+    let Some(handle) = light.intensity.texture() else { return plain_mean(textures, &light.intensity) };
+    let latitude = |uv: DVec2| (uv.y - 0.5) * PI;
+    let weighed = match light.kind {
+        LightKind::Distant | LightKind::Point { mapping: DirectionMapping::EqualArea, .. } => {
+            picture_mean(scene, handle, |_| 1.0)
+        }
+        LightKind::Point { .. } => picture_mean(scene, handle, |uv| latitude(uv).cos()),
+        LightKind::Spot { cone_angle, falloff_angle, .. } => {
+            let [inner, outer] = cone_cosines(cone_angle, falloff_angle).map(f64::from);
+            picture_mean(scene, handle, |uv| {
+                let toward = latitude(uv).cos() * (2.0 * PI * (uv.x - 0.5)).cos();
+                let t = ((toward - outer) / (inner - outer).max(1e-7)).clamp(0.0, 1.0);
+                latitude(uv).cos() * t * t * (3.0 - 2.0 * t)
+            })
+        }
+        LightKind::Projection { fov, fov_axis, aspect, .. } => {
+            let half = half_frustum(fov, fov_axis, aspect).as_dvec2();
+            picture_mean(scene, handle, |uv| (1.0 + ((2.0 * uv - 1.0) * half).length_squared()).powf(-1.5))
+        }
+    };
+    weighed.unwrap_or_else(|| textures.mean(handle))
+}
