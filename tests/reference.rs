@@ -5,6 +5,8 @@
 //! `target/reference/NAME.exr`, and `NAME.png` with the reference, the picture and their difference, and puts both to the
 //! test of `dapple::diff`. The noise of the picture is what its film says.
 //!
+//! The scenes of pbrt are read a second time as they are, by dapple's reader of pbrt-v4, and put to the same test.
+//!
 //! These references show what dapple cannot render yet:
 //!
 //! | reference | what it needs |
@@ -14,12 +16,13 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // Helpers of tests are tests too.
 mod common;
 
-use common::references::{folder, reference, rendered};
+use common::references::{Reference, folder, reference, rendered};
 use dapple::diff::{compare, flip, write_panel};
 use dapple::film::write;
 use dapple::gpu::{DeviceChoice, Gpu};
 use dapple::import::read_scene;
 use dapple::render::{Next, Options, Renderer};
+use dapple::scene::Scene;
 use dapple::shader::{CacheOptions, Compiler, Sources};
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -40,23 +43,46 @@ fn device() -> &'static Mutex<(Arc<Gpu>, Compiler)> {
 fn check(renderer: &str, name: &str) {
     let Some(folder) = folder().unwrap() else { return };
     let expected = reference(&folder, renderer, name).unwrap();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let path = root.join("tests/scenes/reference").join(name).with_extension("toml");
-    let (scene, warnings) = read_scene(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let path = root().join("tests/scenes/reference").join(name).with_extension("toml");
     // Scenes need not use all of `meshes.toml`
-    let warnings: Vec<_> =
-        warnings.iter().map(ToString::to_string).filter(|text| !text.contains("meshes.toml")).collect();
-    assert!(warnings.is_empty(), "{warnings:?}");
+    let scene = read(&path, &[], |warning| warning.contains("meshes.toml"));
+    compare_with(&expected, &scene, name);
+}
 
+/// Renders a scene of pbrt as it is, and compares it with the picture of pbrt.
+fn check_pbrt(name: &str) {
+    let Some(folder) = folder().unwrap() else { return };
+    let expected = reference(&folder, "pbrt", name).unwrap();
+    let path = folder.join("pbrt").join(name).with_extension("pbrt");
+    let as_meshes = |warning: &str| warning.contains("not supported") && warning.ends_with(": a mesh");
+    let scene = read(&path, &[("render.spp", "256")], as_meshes);
+    compare_with(&expected, &scene, &format!("{name}_pbrt"));
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Reads a scene that has no warnings but those that `may_be`.
+fn read(path: &Path, settings: &[(&str, &str)], may_be: impl Fn(&str) -> bool) -> Scene {
+    let settings: Vec<_> =
+        settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let (scene, warnings) = read_scene(path, &settings).unwrap_or_else(|error| panic!("{error}"));
+    let warnings: Vec<_> = warnings.iter().map(ToString::to_string).filter(|text| !may_be(text)).collect();
+    assert!(warnings.is_empty(), "{warnings:?}");
+    scene
+}
+
+fn compare_with(expected: &Reference, scene: &Scene, name: &str) {
     let mut device = device().lock().unwrap_or_else(PoisonError::into_inner);
     let (gpu, compiler) = &mut *device;
     let start = Instant::now();
-    let renderer = Renderer::open(gpu.clone(), compiler, &scene, Options::of(gpu)).unwrap();
+    let renderer = Renderer::open(gpu.clone(), compiler, scene, Options::of(gpu)).unwrap();
     let film = renderer.render(0, scene.render.spp, &mut |_| Next::Continue).unwrap();
     let seconds = start.elapsed().as_secs_f64();
     assert_eq!((film.left_out(), film.clamped()), (0, 0), "samples left out, clamped");
 
-    let out = root.join("target/reference");
+    let out = root().join("target/reference");
     std::fs::create_dir_all(&out).unwrap();
     let file = out.join(name).with_extension("exr");
     write(&file, &film.resolve(), &scene.film, &film.meta()).unwrap();
@@ -84,4 +110,23 @@ scenes! {
     pbrt: a_cornell b_wrap c_uv_quadrics d_checker e_noise f_marble_dots g_bump h_normalmap i_alpha j_thinlens k_softshadow l_materials m_instances
         n_infinite_const n_infinite_image o_lens_dgauss o_lens_wide p_equirect p_ortho q_meshes r_hardlights;
     mitsuba: m_area_lights m_bitmap_wrap_filter m_bumpmap m_cornell_saturated m_dielectric m_mask m_thinlens m_volume_texture;
+}
+
+/// Scenes that are read as pbrt has them.
+mod as_pbrt {
+    macro_rules! scenes {
+        ($($name:ident)+) => {
+            $(
+                #[test]
+                fn $name() {
+                    super::check_pbrt(stringify!($name));
+                }
+            )+
+        };
+    }
+
+    scenes! {
+        a_cornell b_wrap c_uv_quadrics d_checker e_noise f_marble_dots g_bump h_normalmap i_alpha j_thinlens k_softshadow l_materials
+        m_instances n_infinite_const n_infinite_image o_lens_dgauss o_lens_wide p_equirect p_ortho r_hardlights
+    }
 }

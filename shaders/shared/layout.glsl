@@ -104,6 +104,10 @@ const uint LIGHT_DISK = 5u; // Light kind: disk; edges are its radii.
 const uint LIGHT_TRIANGLE = 6u; // Light kind: triangle of a mesh.
 const uint LIGHT_TURNED = 2147483648u; // Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
 const uint LIGHT_PROJECTION = 7u; // Light kind: picture thrown from a point.
+const uint LIGHT_SPHERE_PART = 8u; // Light kind: part of a sphere.
+const uint LIGHT_DISK_PART = 9u; // Light kind: part of a disk.
+const uint LIGHT_CYLINDER = 10u; // Light kind: tube, or a part of it.
+const uint LIGHT_PATCH = 11u; // Light kind: bilinear patch.
 const uint TEXELS_RGBA8 = 0u; // Texel format: a word holds 2×2 texels of 8 bits a channel.
 const uint TEXELS_RGBA8_SRGB = 1u; // Texel format: the same; colour is decoded before it is filtered.
 const uint TEXELS_RGBA16F = 2u; // Texel format: a word holds 2×1 texels of halves.
@@ -450,11 +454,11 @@ struct Light {
     uint two_sided; // 1 when it shines on both sides
     vec3 radiance; // radiance, intensity or irradiance, or a factor on that of its texture
     uint texture; // its texture, or NONE
-    vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a sphere
-    vec2 uv1; // uv of the second vertex less the first; z of the third axis of a sphere
-    vec2 uv2; // uv of the third vertex less the first
+    vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a quadric, or of the twist of a patch
+    vec2 uv1; // uv of the second vertex less the first; z of that axis or twist, and the turn of a part
+    vec2 uv2; // uv of the third vertex less the first; least and greatest z of a part of a sphere; radius of the hole of a disk
     uint material; // material of a surface
-    uint extra; // triangle: that of its Face, or NONE; LIGHT_TURNED: two corners changed places. point light: 1 for an equal-area map
+    uint extra; // triangle: that of its Face, or NONE; LIGHT_TURNED: two corners changed places. point light: 1 for an equal-area map; patch: first word of `instances` with its BilinearPatch
 };
 const uint LIGHT_WORDS = 7u;
 Light light_unpack(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, uvec4 w5, uvec4 w6)

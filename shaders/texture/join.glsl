@@ -8,6 +8,11 @@ vec4 texture_constant(uint w) { return vec4(texture_input_unpack(fetch_textures(
 uint texture_input(uint w) { return texture_input_unpack(fetch_textures(w)).at; }
 
 vec4 texture_mix(vec4 a, vec4 b, vec4 amount) { return mix(a, b, clamp(mean_component(amount.rgb), 0.0, 1.0)); }
+vec4 texture_direction_mix(vec3 direction, vec3 normal, vec4 a, vec4 b)
+{
+    return mix(b, a, min(abs(dot(direction, normal)), 1.0));
+}
+
 vec4 texture_add(vec4 a, vec4 b) { return vec4(a.rgb + b.rgb, 1.0); }
 vec4 texture_multiply(vec4 a, vec4 b) { return vec4(a.rgb * b.rgb, a.a * b.a); }
 vec4 texture_scale(vec4 value, vec4 factor) { return vec4(value.rgb * mean_component(factor.rgb), value.a); }

@@ -80,7 +80,7 @@ const DIFF_HELP: &str = "Exit code 0 when the pictures agree, 1 when they differ
 #[derive(Debug, ClapArgs)]
 #[command(after_help = BAKE_HELP)]
 pub struct BakeArgs {
-    /// The scene, a TOML file
+    /// The scene, a TOML file or a .pbrt file of pbrt-v4
     pub scene: PathBuf,
     /// Name of the texture; nothing else needs to use it
     pub texture: String,
@@ -226,7 +226,7 @@ pub enum Fetch {
 #[derive(Debug, ClapArgs)]
 #[command(after_help = RENDER_HELP)]
 pub struct RenderArgs {
-    /// The scene, a TOML file, or a glTF model (.gltf, .glb)
+    /// The scene: a TOML file, a glTF model (.gltf, .glb), or a .pbrt file of pbrt-v4
     pub scene: PathBuf,
     /// The picture: .png (sRGB) or .exr (linear, all planes); default: name of the scene with .png, in this folder
     #[arg(short, long, value_name = "FILE")]
@@ -267,6 +267,9 @@ pub struct RenderArgs {
     /// What is shown of models
     #[command(flatten)]
     pub model: ModelArgs,
+    /// Take what is not supported, and every other warning about the scene, as an error
+    #[arg(long)]
+    pub strict: bool,
     /// Print nothing but errors (and the values that --pixel asks for)
     #[arg(short, long, conflicts_with = "json")]
     pub quiet: bool,
@@ -315,7 +318,7 @@ pub struct DevicesArgs {
 /// `dapple check`.
 #[derive(Debug, ClapArgs)]
 pub struct CheckArgs {
-    /// The scene, a TOML file, or a glTF model (.gltf, .glb)
+    /// The scene: a TOML file, a glTF model (.gltf, .glb), or a .pbrt file of pbrt-v4
     pub scene: PathBuf,
     /// Change a key of the scene, such as render.max_depth=3; may be given several times
     #[arg(long, value_name = "key=value", value_parser = parse::setting)]
@@ -323,6 +326,9 @@ pub struct CheckArgs {
     /// What is shown of models
     #[command(flatten)]
     pub model: ModelArgs,
+    /// Take what is not supported, and every other warning about the scene, as an error
+    #[arg(long)]
+    pub strict: bool,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

@@ -3,6 +3,7 @@
 use super::args::CheckArgs;
 use super::console::Console;
 use super::devices::bytes_text;
+use super::job::strictly;
 use dapple::Result;
 use dapple::import::{ModelContents, Warning, is_model, model_contents, read_scene_showing};
 use dapple::layout::Backend;
@@ -103,6 +104,7 @@ impl OfModel {
 /// Reads, prepares, prints.
 pub fn run(args: &CheckArgs, console: &mut Console) -> Result<()> {
     let (scene, warnings) = read_scene_showing(&args.scene, &args.set, &args.model.choice())?;
+    strictly(args.strict, &warnings)?;
     if !args.json {
         warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
     }

@@ -32,6 +32,7 @@ impl Job {
             None => Sources::embedded(),
         };
         let (mut scene, warnings) = read_scene_showing(&args.scene, &args.set, &args.model.choice())?;
+        strictly(args.strict, &warnings)?;
         set_window(&mut scene.film, args.size, args.crop, args.pixel)?;
         scene.render.spp = args.spp.unwrap_or(scene.render.spp);
         scene.render.seed = args.seed.unwrap_or(scene.render.seed);
@@ -57,6 +58,16 @@ impl Job {
     }
 }
 
+/// With `--strict` a warning is an error.
+pub fn strictly(strict: bool, warnings: &[Warning]) -> Result<()> {
+    match warnings.first().filter(|_| strict) {
+        Some(Warning { place, message }) => Err(Error::scene(message)
+            .help("leave out --strict to go on")
+            .at(&place.file, place.line, place.column)),
+        None => Ok(()),
+    }
+}
+
 /// The file that the picture goes to, checked.
 fn target(args: &RenderArgs) -> Result<Option<PathBuf>> {
     let target = match &args.output {
@@ -71,7 +82,7 @@ fn target(args: &RenderArgs) -> Result<Option<PathBuf>> {
 /// Name of the scene with `.png`, in the current folder.
 fn default_target(scene: &Path) -> Result<PathBuf> {
     let stem = scene.file_stem().ok_or_else(|| {
-        Error::scene("this names no scene file").in_file(scene).help("give the path of a TOML file")
+        Error::scene("this names no scene file").in_file(scene).help("give the path of a scene file")
     })?;
     let mut name = stem.to_owned();
     name.push(".png");
@@ -148,6 +159,16 @@ mod tests {
     fn the_picture_is_named_after_the_scene() {
         assert_eq!(default_target(Path::new("a/b.c.toml")).unwrap(), Path::new("b.c.png"));
         default_target(Path::new("..")).unwrap_err();
+    }
+
+    #[test]
+    fn a_warning_is_an_error_only_where_that_is_asked_for() {
+        let place = dapple::Place { file: "a.pbrt".into(), line: 3, column: 1 };
+        let warnings = [Warning { place, message: "not supported: x".into() }];
+        strictly(false, &warnings).unwrap();
+        strictly(true, &[]).unwrap();
+        let error = strictly(true, &warnings).unwrap_err().to_string();
+        assert_eq!(error, "a.pbrt:3:1: not supported: x; leave out --strict to go on");
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Files → [`crate::scene::Scene`].
 
+mod affine;
+mod assets;
 mod exr;
 mod file;
 mod framing;
@@ -8,24 +10,28 @@ mod image;
 mod lens;
 mod mesh;
 mod obj;
+mod pbrt;
 mod ply;
 mod ply_header;
 mod ply_vertices;
 mod srgb;
 mod studio;
+mod text;
 mod toml;
 mod volume;
+mod warning;
 
 pub use self::gltf::{
     Model, ModelCamera, ModelChoice, ModelContents, is_model, model_contents, read_gltf_mesh, read_model,
 };
-pub use self::toml::{Assets, Warning, read_scene_with};
+pub use assets::Assets;
 pub use image::read_image;
 pub use lens::{Spacing, read_lens};
 pub use mesh::read_mesh;
 pub use obj::read_obj;
 pub use ply::read_ply;
 pub use volume::read_volume;
+pub use warning::Warning;
 
 use crate::Result;
 use crate::scene::{Image, LensSystem, Mesh, Scene};
@@ -48,12 +54,12 @@ impl Assets for Files {
     }
 }
 
-/// Reads a scene file and everything that it names. `overrides` are key and value as in `--set key=value`. A `.gltf` or `.glb` file is a
-/// scene with one instance of that model.
+/// Reads a scene file and everything that it names: a scene of pbrt-v4 when its name ends in `.pbrt`, one instance of a model when it
+/// ends in `.gltf` or `.glb`, else TOML. `overrides` are key and value as in `--set key=value`.
 ///
 /// # Errors
-/// The first thing that is wrong, with file, line and column, or with file and JSON pointer. See `scenes/README.md` for the
-/// language, and `scenes/gltf.md` for models.
+/// The first thing that is wrong, with file, line and column, or with file and JSON pointer. `scenes/README.md` describes the
+/// language, `scenes/pbrt.md` and `scenes/gltf.md` what is read of the others.
 pub fn read_scene(path: &Path, overrides: &[(String, String)]) -> Result<(Scene, Vec<Warning>)> {
     read_scene_showing(path, overrides, &ModelChoice::default())
 }
@@ -68,4 +74,22 @@ pub fn read_scene_showing(
     choice: &ModelChoice,
 ) -> Result<(Scene, Vec<Warning>)> {
     read_scene_with(path, overrides, choice, &mut Files)
+}
+
+/// The same, with files that come from elsewhere.
+///
+/// # Errors
+/// As [`read_scene_showing`].
+pub fn read_scene_with(
+    path: &Path,
+    overrides: &[(String, String)],
+    choice: &ModelChoice,
+    assets: &mut dyn Assets,
+) -> Result<(Scene, Vec<Warning>)> {
+    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pbrt")) {
+        return toml::read_scene_with(path, overrides, choice, assets);
+    }
+    let (mut scene, warnings) = pbrt::read_pbrt(path, assets)?;
+    toml::change_settings(&mut scene, path, overrides, assets)?;
+    Ok((scene, warnings))
 }

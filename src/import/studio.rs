@@ -4,7 +4,7 @@ use crate::scene::{
     Channel, ColorSpace, Environment, Image, ImageTexture, Scene, TexelFilter, Texels, Texture, UvTransform,
     Value, Wrap,
 };
-use glam::{Vec3};
+use glam::Vec3;
 use std::f32::consts::{PI, TAU};
 
 /// A round, soft lamp at infinity.

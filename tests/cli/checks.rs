@@ -30,6 +30,23 @@ fn check_tells_what_is_in_a_scene() {
     assert_eq!(room.names(), ["scene.toml"]);
 }
 
+#[test]
+fn a_scene_of_pbrt_is_rendered_and_strict_refuses_what_is_not_supported() {
+    let room = Room::new();
+    let text = "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 6\nWorldBegin\n\
+        LightSource \"infinite\" \"rgb L\" [1 1 1]\nShape \"curve\"\n";
+    std::fs::write(room.path("scene.pbrt"), text).unwrap();
+    let warning = "scene.pbrt:4:1: not supported: Shape \"curve\": left out";
+    let ran = room.run("check scene.pbrt").code(0);
+    assert!(ran.out.contains("8 x 6 pixels") && ran.err.contains(warning), "{} {}", ran.out, ran.err);
+    for command in ["check scene.pbrt --strict", "render scene.pbrt --strict -o strict.png"] {
+        let ran = room.run(command).code(2);
+        assert!(ran.err.contains("not supported: Shape \"curve\""), "{}", ran.err);
+    }
+    room.run("render scene.pbrt --set render.spp=1 -o white.png").code(0);
+    assert_eq!(room.names(), ["scene.pbrt", "scene.toml", "white.png"]);
+}
+
 /// Files of a folder below scenes/ that have an extension, sorted.
 fn files_of(folder: &str, extension: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(folder);

@@ -196,6 +196,24 @@ fn gradients_measure_distances() {
 }
 
 #[test]
+fn a_mix_by_direction_sees_the_normal() {
+    let (a, b) = (Value::Constant(Vec3::new(1.0, 0.5, 0.0)), BLACK);
+    let (scene, handle) = scene_of([Texture::DirectionMix { a, b, direction: Vec3::new(0.6, 0.0, 0.8) }]);
+    let at = |normal: [f32; 3]| TexturePoint { normal, ..TexturePoint::default() };
+    let points =
+        [[0.6, 0.0, 0.8], [-0.6, 0.0, -0.8], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.8, 0.0, -0.6]].map(at);
+    for backend in [Backend::Storage, Backend::Texel] {
+        let found = super::evaluate(&scene, handle, backend, &points).unwrap();
+        for (found, expected) in found.iter().zip([1.0, 1.0, 0.0, 0.6, 0.0_f32]) {
+            assert!(
+                (found[0] - expected).abs() < 1e-6 && (found[1] - 0.5 * expected).abs() < 1e-6,
+                "{found:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn worley_finds_the_nearest_points() {
     let at = points(400, 6.0);
     for metric in [Metric::Euclidean, Metric::Manhattan, Metric::Chebyshev] {

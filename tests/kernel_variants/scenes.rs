@@ -241,7 +241,9 @@ fn trees() -> Scene {
         let value = Value::Texture(scene.textures.add("cells", cells));
         let stops = vec![(0.0, Vec3::ZERO), (1.0, Vec3::ONE)];
         let sum = scene.textures.add("ramp", Texture::Ramp { value, stops, smooth: true });
-        last = scene.textures.add("mixed", Texture::Mix { a, b: inverted, amount: Value::Texture(sum) });
+        let faced = Texture::DirectionMix { a, b: noise, direction: Vec3::Y };
+        let b = Value::Texture(scene.textures.add("faced", faced));
+        last = scene.textures.add("mixed", Texture::Mix { a, b, amount: Value::Texture(sum) });
     }
     let placed = placed(&mut scene);
     let shade = Surface::Diffuse { color: Value::Texture(last) };

@@ -4,6 +4,7 @@ mod details;
 mod files;
 mod materials;
 mod objects;
+mod pbrt;
 mod shapes;
 mod textures;
 

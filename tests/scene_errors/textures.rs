@@ -7,11 +7,11 @@ fn textures() {
     check(&[
         (
             "[texture.t]\nfile = 'a.png'",
-            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"stack\", \"glsl\", \"constant\", \"vertex_color\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"",
+            "1:1: `kind` is missing in texture `t`; kinds are \"image\", \"stack\", \"glsl\", \"constant\", \"vertex_color\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"direction_mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"",
         ),
         (
             "[texture.t]\nkind = 'imag'",
-            "2:8: `kind` is \"imag\", must be one of \"image\", \"stack\", \"glsl\", \"constant\", \"vertex_color\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"; did you mean \"image\"?",
+            "2:8: `kind` is \"imag\", must be one of \"image\", \"stack\", \"glsl\", \"constant\", \"vertex_color\", \"checker\", \"noise\", \"fbm\", \"turbulence\", \"ridged\", \"windy\", \"value_noise\", \"marble\", \"wood\", \"granite\", \"brick\", \"dots\", \"gradient\", \"worley\", \"ramp\", \"curve\", \"mix\", \"direction_mix\", \"add\", \"multiply\", \"scale\", \"invert\", \"warp\", \"mapped\"; did you mean \"image\"?",
         ),
         (
             "[texture.t]\nkind = 'invert'\nvalue = { texture = 'u' }\n[texture.u]\nkind = 'invert'\nvalue = { texture = 't' }",

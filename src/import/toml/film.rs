@@ -7,7 +7,7 @@ use super::text::{Limits, shown};
 use super::view::{Item, View};
 use crate::Result;
 use crate::scene::{
-    Exposure, Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Meter, Rect, Render, Sampler, ToneCurve,
+    Exposure, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Meter, Rect, Render, Sampler, ToneCurve,
 };
 
 const MAX_STRATA: u32 = 4096;
@@ -39,7 +39,7 @@ fn exposure(item: Item<'_>) -> Result<Exposure> {
 impl Reader<'_> {
     pub fn film(&mut self, node: &Node) -> Result<()> {
         let view = View::new(self.sources, node, "[film]".into(), FILM)?;
-        let mut film = Film::default();
+        let mut film = self.scene.film.clone();
         if let Some(size) = view.get("size") {
             [film.width, film.height] = size.whole_numbers(1, MAX_SIDE)?;
         }
@@ -70,7 +70,7 @@ impl Reader<'_> {
 
     pub fn render(&mut self, node: &Node) -> Result<()> {
         let view = View::new(self.sources, node, "[render]".into(), RENDER)?;
-        let default = Render::default();
+        let default = self.scene.render.clone();
         let samplers = [
             ("sobol", Sampler::Sobol),
             ("stratified", Sampler::Stratified),
@@ -137,6 +137,8 @@ fn filter(view: &View<'_>, default: Filter) -> Result<Filter> {
             4.0
         }
     };
+    // That of the scene, unless another kind is chosen
+    let radius = if view.get("filter").is_some() { radius } else { default.radius };
     let radius = view.f32_or("filter_radius", radius, Limits::AboveUpTo(0.0, MAX_FILTER_RADIUS))?;
     Ok(Filter { kind, radius })
 }

@@ -238,6 +238,7 @@ pub(super) const TEXTURE: Kinds = Kinds {
         ("ramp", &["value", "stops", "smooth"]),
         ("curve", &["value", "points", "smooth"]),
         ("mix", &["a", "b", "amount"]),
+        ("direction_mix", &["a", "b", "direction"]),
         ("add", &["a", "b"]),
         ("multiply", &["a", "b"]),
         ("scale", &["value", "factor"]),

@@ -3,7 +3,6 @@
 //! A file is parsed into a tree of values that know their place ([`document`]), joined with the files that it
 //! includes ([`include`]), changed by `--set` ([`overrides`]), and read table by table ([`reader`]).
 
-mod assets;
 mod camera;
 mod detail;
 mod displacement;
@@ -22,7 +21,6 @@ mod names;
 mod overrides;
 mod reader;
 mod shape;
-mod text;
 mod texture;
 mod transform;
 mod value;
@@ -31,30 +29,12 @@ mod view;
 #[cfg(test)]
 mod tests;
 
-pub use assets::Assets;
-
-use crate::import::{ModelChoice, is_model};
+use super::assets::Assets;
+use super::warning::Warning;
+use super::{ModelChoice, assets, is_model, text};
+use crate::Result;
 use crate::scene::Scene;
-use crate::{Place, Result};
-use std::fmt;
 use std::path::Path;
-
-/// Something that is allowed in a scene and probably not meant.
-///
-/// Printed as `file:line:column: message`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Warning {
-    /// Where.
-    pub place: Place,
-    /// The thing and why it is doubtful, in one sentence without a full stop.
-    pub message: String,
-}
-
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place, self.message)
-    }
-}
 
 /// Reads a scene file, the files that it includes, and the pictures and meshes that it names.
 ///
@@ -63,7 +43,7 @@ impl fmt::Display for Warning {
 ///
 /// # Errors
 /// The first thing that is wrong, with file, line and column, or with the `--set` that it comes from.
-pub fn read_scene_with(
+pub(super) fn read_scene_with(
     path: &Path,
     overrides: &[(String, String)],
     choice: &ModelChoice,
@@ -76,4 +56,34 @@ pub fn read_scene_with(
     };
     overrides::apply(&mut sources, path, &mut document, overrides)?;
     reader::read(&sources, assets, choice, &document)
+}
+
+/// Changes `[film]` and `[render]` of a scene in another language by `--set`.
+///
+/// # Errors
+/// Other keys, and values that are wrong, with the `--set` that they come from.
+pub(super) fn change_settings(
+    scene: &mut Scene,
+    path: &Path,
+    overrides: &[(String, String)],
+    assets: &mut dyn Assets,
+) -> Result<()> {
+    if overrides.is_empty() {
+        return Ok(());
+    }
+    let mut sources = document::Sources::default();
+    let mut document = document::Table::default();
+    overrides::apply(&mut sources, path, &mut document, overrides)?;
+    if let Some(entry) =
+        document.entries.iter().find(|entry| !["film", "render"].contains(&entry.key.as_str()))
+    {
+        let message = format!("[{}] of this scene cannot be set", text::shown(&entry.key));
+        return Err(sources
+            .error(entry.spot, message)
+            .help("set keys of film and render, or change the scene file"));
+    }
+    let mut reader = reader::Reader::new(&sources, assets, &ModelChoice::default(), std::mem::take(scene));
+    reader.settings(&document)?;
+    *scene = reader.scene;
+    Ok(())
 }

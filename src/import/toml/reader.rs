@@ -35,24 +35,9 @@ pub(super) fn read(
     choice: &ModelChoice,
     document: &Table,
 ) -> Result<(Scene, Vec<Warning>)> {
-    let mut reader = Reader {
-        sources,
-        assets,
-        scene: Scene::default(),
-        textures: Names::new(["texture", "textures"]),
-        materials: Names::new(["material", "materials"]),
-        meshes: Names::new(["mesh", "meshes"]),
-        images: BTreeMap::new(),
-        models: Models::showing(choice),
-        warnings: Vec::new(),
-    };
+    let mut reader = Reader::new(sources, assets, choice, Scene::default());
     // What is quick to check comes before the files that may be large.
-    if let Some(entry) = document.get("film") {
-        reader.film(&entry.node)?;
-    }
-    if let Some(entry) = document.get("render") {
-        reader.render(&entry.node)?;
-    }
+    reader.settings(document)?;
     if let Some(entry) = document.get("camera") {
         reader.camera(&entry.node)?;
     }
@@ -79,7 +64,33 @@ pub(super) fn read(
     Ok(reader.finish())
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    /// A reader that adds to a scene.
+    pub fn new(sources: &'a Sources, assets: &'a mut dyn Assets, choice: &ModelChoice, scene: Scene) -> Self {
+        Self {
+            sources,
+            assets,
+            scene,
+            textures: Names::new(["texture", "textures"]),
+            materials: Names::new(["material", "materials"]),
+            meshes: Names::new(["mesh", "meshes"]),
+            images: BTreeMap::new(),
+            models: Models::showing(choice),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// `[film]` and `[render]`.
+    pub fn settings(&mut self, document: &Table) -> Result<()> {
+        if let Some(entry) = document.get("film") {
+            self.film(&entry.node)?;
+        }
+        match document.get("render") {
+            Some(entry) => self.render(&entry.node),
+            None => Ok(()),
+        }
+    }
+
     pub fn warn(&mut self, spot: Spot, message: String) {
         self.warnings.push((spot, message));
     }

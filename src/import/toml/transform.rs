@@ -4,10 +4,8 @@ use super::keys::STEP;
 use super::text::Limits;
 use super::view::{Item, View};
 use crate::Result;
-use glam::{Affine3A, DAffine3, DMat3, DQuat, DVec3, Mat3A, Vec3A};
-
-/// Volume of three columns against a box with the same edges: below this the map is flat within 32-bit rounding.
-const MIN_VOLUME: f64 = 1e-7;
+use crate::import::affine::narrow;
+use glam::{Affine3A, DAffine3, DMat3, DQuat, DVec3};
 
 /// The map of a list of steps; the first step is applied first.
 pub(super) fn transform(item: Item<'_>) -> Result<Affine3A> {
@@ -15,20 +13,9 @@ pub(super) fn transform(item: Item<'_>) -> Result<Affine3A> {
     for step in item.list("a list of steps, such as [{ translate = [0, 1, 0] }]")? {
         whole = self::step(step)? * whole;
     }
-    let columns = [whole.x_axis, whole.y_axis, whole.z_axis, whole.translation];
-    let [x, y, z, translation] = columns.map(|column| Vec3A::from(column.as_vec3()));
-    let narrow = Affine3A { matrix3: Mat3A::from_cols(x, y, z), translation };
-    let edges = whole.x_axis.length() * whole.y_axis.length() * whole.z_axis.length();
-    let volume = whole.matrix3.determinant().abs();
-    let inverse = narrow.as_daffine3().inverse();
-    let holds =
-        [inverse.x_axis, inverse.y_axis, inverse.z_axis].iter().all(|column| column.as_vec3().is_finite());
-    // Negated, so that NaN counts as singular.
-    let invertible = volume > MIN_VOLUME * edges && narrow.is_finite() && holds;
-    if !invertible {
-        return Err(item.error(format!("{} cannot be inverted", item.name())).help("give every axis a size"));
-    }
-    Ok(narrow)
+    narrow(&whole).ok_or_else(|| {
+        item.error(format!("{} cannot be inverted", item.name())).help("give every axis a size")
+    })
 }
 
 fn step(item: Item<'_>) -> Result<DAffine3> {

@@ -91,6 +91,7 @@ impl<'a> Builder<'a> {
             }
             Texture::Curve { value, points, smooth } => self.curve(value, points, *smooth),
             Texture::Mix { a, b, amount } => self.mix(a, b, *amount),
+            Texture::DirectionMix { a, b, direction } => self.direction_mix(a, b, *direction),
             Texture::Add { a, b } => self.add(a, b),
             Texture::Multiply { a, b } => self.multiply(a, b),
             Texture::Scale { value, factor } => self.scale(value, *factor),

@@ -25,6 +25,7 @@ impl Shape {
             Self::Brick(..) => Pattern::WORDS + Wall::WORDS + NodeNumber::WORDS,
             Self::Dots(..) => Pattern::WORDS + NodeNumber::WORDS,
             Self::WarpBy(..) => NodeNumber::WORDS,
+            Self::DirectionMix(..) => TextureInput::WORDS,
             Self::WarpNoise(..) => NOISE_AFTER_NUMBER + NoiseRecord::WORDS,
             _ => 0,
         }
@@ -103,6 +104,9 @@ impl Shape {
             Self::Spline(of) => format!("texture_spline(at, {})", inputs(of)),
             Self::Curve(of) => format!("texture_curve(at, {})", inputs(of)),
             Self::Mix(of) => format!("texture_mix({})", inputs(of)),
+            Self::DirectionMix(of) => {
+                format!("texture_direction_mix(texture_constant(at).xyz, context.normal, {})", inputs(of))
+            }
             Self::Add(of) => format!("texture_add({})", inputs(of)),
             Self::Multiply(of) => format!("texture_multiply({})", inputs(of)),
             Self::Scale(of) => format!("texture_scale({})", inputs(of)),

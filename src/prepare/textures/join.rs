@@ -4,7 +4,7 @@ use super::builder::{Builder, Node, Words};
 use super::pattern::{number, place};
 use super::range::{Range, mean};
 use super::shape::{Place, Shape};
-use crate::layout::{NoiseSum as NoiseRecord, Ramp, RampStop};
+use crate::layout::{NoiseSum as NoiseRecord, Ramp, RampStop, TextureInput};
 use crate::scene::{Value, Warp};
 use glam::Vec3;
 
@@ -17,6 +17,15 @@ impl Builder<'_> {
         }
         let shape = Shape::Mix([a.input(), b.input(), t.input()]);
         self.join(shape, Words::default(), &[a, b, t], a.range.mixed(b.range, share))
+    }
+
+    pub(super) fn direction_mix(&mut self, a: &Value<Vec3>, b: &Value<Vec3>, direction: Vec3) -> Node {
+        let [a, b] = [self.input(a), self.input(b)];
+        let mut own = Words::default();
+        own.push(TextureInput { value: direction.to_array(), at: 0 });
+        // Over all directions of the normal the mean of |cos| is ½
+        let range = a.range.mixed(b.range, 0.5);
+        self.join(Shape::DirectionMix([a.input(), b.input()]), own, &[a, b], range)
     }
 
     pub(super) fn add(&mut self, a: &Value<Vec3>, b: &Value<Vec3>) -> Node {

@@ -29,6 +29,7 @@ pub(super) enum Shape {
     Spline([Input; 1]),
     Curve([Input; 1]),
     Mix([Input; 3]),
+    DirectionMix([Input; 2]),
     Add([Input; 2]),
     Multiply([Input; 2]),
     Scale([Input; 2]),

@@ -130,6 +130,15 @@ pub enum Texture {
         /// 0 to 1.
         amount: Value<f32>,
     },
+    /// Of two textures, |normal · direction| of the first and the rest of the second (pbrt, `directionmix`).
+    DirectionMix {
+        /// Where the surface faces the direction or its opposite.
+        a: Value<Vec3>,
+        /// Where the direction is along the surface.
+        b: Value<Vec3>,
+        /// In the world, of unit length. The normal is that of shading.
+        direction: Vec3,
+    },
     /// a + b.
     Add {
         /// One.
@@ -176,6 +185,7 @@ impl Texture {
             | Self::Dots(Dots { outside: a, inside: b, .. })
             | Self::Gradient { low: a, high: b, .. }
             | Self::Worley { low: a, high: b, .. }
+            | Self::DirectionMix { a, b, .. }
             | Self::Add { a, b }
             | Self::Multiply { a, b } => two(a, b),
             Self::Ramp { value, .. } => [value.texture(), None, None],

@@ -24,6 +24,11 @@ pub struct Perlin {
     pub dimensions: u32,
 }
 
+impl Perlin {
+    /// That of pbrt.
+    pub const PBRT: Self = Self { variant: PerlinVariant::Pbrt, dimensions: 3 };
+}
+
 impl Default for Perlin {
     fn default() -> Self {
         Self { variant: PerlinVariant::Improved, dimensions: 3 }
@@ -67,6 +72,13 @@ pub struct Noise {
     pub high: Value<Vec3>,
     /// Where the pattern is; a cell of the lattice of the first octave has a side of 1.
     pub space: PatternSpace,
+}
+
+impl Noise {
+    /// The lacunarity of pbrt's noise: octaves of 2 would have their zeros in one place.
+    pub const PBRT_LACUNARITY: f32 = 1.99;
+    /// Octaves of the waves of [`NoiseSum::Windy`] in pbrt.
+    pub const WAVE_OCTAVES: u32 = 6;
 }
 
 /// The noise of the lecture: random values at the points of a lattice, 3t² − 2t³ between them, and octaves of it, each with twice
@@ -129,6 +141,21 @@ pub struct Veins {
     pub colors: Spread,
     /// Where the pattern is.
     pub space: PatternSpace,
+}
+
+impl Veins {
+    /// Colours of pbrt's marble (`MarbleTexture`), with the factor that it applies.
+    pub const MARBLE: [[f32; 3]; 9] = [
+        [0.87, 0.87, 0.9],
+        [0.87, 0.87, 0.9],
+        [0.87, 0.87, 0.9],
+        [0.75, 0.75, 0.75],
+        [0.9, 0.885, 0.87],
+        [0.87, 0.87, 0.9],
+        [0.87, 0.87, 0.9],
+        [0.3, 0.3, 0.495],
+        [0.87, 0.87, 0.9],
+    ];
 }
 
 /// A texture at points that are moved, in every space by the same numbers.

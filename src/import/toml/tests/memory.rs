@@ -55,7 +55,7 @@ impl Assets for Memory {
         let mesh = scene.meshes.add("model", mesh);
         let world_from_object = Affine3A::from_translation(Vec3::X);
         let instance = Instance { name: shown, mesh, material, world_from_object, at_close: None };
-        let lights = vec![Light::Distant { direction: -Vec3::Y, irradiance: Vec3::ONE }];
+        let lights = vec![Light::distant(-Vec3::Y, Vec3::ONE)];
         Ok(Model { instances: vec![instance], lights, ..Model::default() })
     }
 

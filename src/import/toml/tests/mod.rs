@@ -228,7 +228,8 @@ fn texture_trees_take_every_key() {
         space: object,
     };
     assert_eq!(*find("grain").2, Texture::Noise(grain));
-    assert_eq!(*find("paper").2, Texture::Constant(Vec3::ONE));
+    let (a, b) = (Value::Constant(Vec3::ONE), Value::Texture(find("slate").0));
+    assert_eq!(*find("paper").2, Texture::DirectionMix { a, b, direction: Vec3::Z });
     let Value::Texture(ball) = of("ball") else { panic!() };
     let stops = vec![(0.0, Vec3::ZERO), (0.5, Vec3::ONE), (1.0, Vec3::new(1.0, 0.5, 0.0))];
     assert_eq!(*find("fire").2, Texture::Ramp { value: Value::Texture(ball), stops, smooth: true });

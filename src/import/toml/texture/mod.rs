@@ -59,6 +59,11 @@ impl Reader<'_> {
             "ramp" => self.ramp(&view)?,
             "curve" => self.curve(&view)?,
             "mix" => self.mix_texture(&view)?,
+            "direction_mix" => Texture::DirectionMix {
+                a: self.input_or(&view, "a", Vec3::ZERO)?,
+                b: self.input_or(&view, "b", Vec3::ONE)?,
+                direction: view.get("direction").map_or(Ok(Vec3::Y), |item| item.direction())?,
+            },
             "add" => Texture::Add { a: self.input(&view, "a")?, b: self.input(&view, "b")? },
             "multiply" => Texture::Multiply { a: self.input(&view, "a")?, b: self.input(&view, "b")? },
             "scale" => Texture::Scale {

@@ -19,21 +19,6 @@ const VARIANTS: [(&str, PerlinVariant); 3] = [
     ("classic", PerlinVariant::Classic),
     ("pbrt", PerlinVariant::Pbrt),
 ];
-/// The lacunarity of pbrt's noise: octaves of 2 would have their zeros in one place.
-const PBRT_LACUNARITY: f32 = 1.99;
-const PBRT: Perlin = Perlin { variant: PerlinVariant::Pbrt, dimensions: 3 };
-/// Colours of pbrt's marble (`MarbleTexture`), with the factor that it applies.
-const MARBLE: [[f32; 3]; 9] = [
-    [0.87, 0.87, 0.9],
-    [0.87, 0.87, 0.9],
-    [0.87, 0.87, 0.9],
-    [0.75, 0.75, 0.75],
-    [0.9, 0.885, 0.87],
-    [0.87, 0.87, 0.9],
-    [0.87, 0.87, 0.9],
-    [0.3, 0.3, 0.495],
-    [0.87, 0.87, 0.9],
-];
 const WOOD: [(f32, [f32; 3]); 3] =
     [(0.0, [0.62, 0.38, 0.18]), (0.45, [0.45, 0.23, 0.09]), (1.0, [0.2, 0.08, 0.03])];
 const GRANITE: [(f32, [f32; 3]); 6] = [
@@ -55,11 +40,11 @@ impl Reader<'_> {
         };
         let [gain, lacunarity] = fractal(view)?;
         Ok(Texture::Noise(Noise {
-            perlin: if kind == "windy" { PBRT } else { perlin(view)? },
+            perlin: if kind == "windy" { Perlin::PBRT } else { perlin(view)? },
             sum,
             octaves: if kind == "noise" { 1 } else { octaves(view, 6)? },
             gain,
-            lacunarity: if kind == "windy" { PBRT_LACUNARITY } else { lacunarity },
+            lacunarity: if kind == "windy" { Noise::PBRT_LACUNARITY } else { lacunarity },
             normalize: view.bool_or("normalize", true)?,
             w: [view.f32_or("w", 0.0, Limits::Finite)?, view.f32_or("w_rate", 0.0, Limits::Finite)?],
             low: self.input_or(view, "low", Vec3::ZERO)?,
@@ -117,7 +102,7 @@ pub(super) fn veins(view: &View<'_>, kind: &str) -> Result<Texture> {
         Spread::Stops(stops.iter().map(|&(place, color)| (place, Vec3::from_array(color))).collect())
     };
     let (kind, octaves_alone, variation, colors) = match kind {
-        "marble" => (VeinKind::Marble, 8, 0.2, Spread::Spline(MARBLE.map(Vec3::from_array).to_vec())),
+        "marble" => (VeinKind::Marble, 8, 0.2, Spread::Spline(Veins::MARBLE.map(Vec3::from_array).to_vec())),
         "wood" => (VeinKind::Wood, 3, 0.8, map(&WOOD)),
         _ => (VeinKind::Granite, 6, 1.0, map(&GRANITE)),
     };
