@@ -28,16 +28,17 @@ pub(super) fn morph(
                         *tangent += (Vec3::from(by) * weight).extend(0.0);
                     }
                 }
-                "TEXCOORD_0" => {
-                    for (uv, [u, v]) in vertices.uvs.iter_mut().zip(document.floats::<2>(reference)?) {
-                        *uv += Vec2::new(u, -v) * weight;
-                    }
-                }
+                "TEXCOORD_0" => move_uvs(&mut vertices.uvs, document.floats::<2>(reference)?, weight),
+                "TEXCOORD_1" => move_uvs(&mut vertices.uvs1, document.floats::<2>(reference)?, weight),
                 _ => {}
             }
         }
     }
     Ok(())
+}
+
+fn move_uvs(uvs: &mut [Vec2], by: Vec<[f32; 2]>, weight: f32) {
+    uvs.iter_mut().zip(by).for_each(|(uv, [u, v])| *uv += Vec2::new(u, -v) * weight);
 }
 
 fn add(vectors: &mut [Vec3], by: Vec<[f32; 3]>, weight: f32) {

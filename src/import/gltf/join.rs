@@ -3,7 +3,7 @@
 use super::{ModelChoice, read_model};
 use crate::scene::{Mesh, MeshPart, Scene};
 use crate::{Error, Result};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use std::path::Path;
 
 /// Most triangles of a mesh that is joined: instances are stored one by one.
@@ -26,6 +26,7 @@ pub fn read_gltf_mesh(path: &Path) -> Result<Mesh> {
     // A mesh has normals and texture coordinates everywhere or nowhere
     let any = |has: fn(&Mesh) -> bool| model.instances.iter().any(|i| has(&scene.meshes[i.mesh]));
     let (normals, uvs) = (any(|mesh| !mesh.normals.is_empty()), any(|mesh| !mesh.uvs.is_empty()));
+    let (uvs1, colors) = (any(|mesh| !mesh.uvs1.is_empty()), any(|mesh| !mesh.colors.is_empty()));
     let mut whole = Mesh::default();
     for instance in &model.instances {
         let mesh = &scene.meshes[instance.mesh];
@@ -33,7 +34,7 @@ pub fn read_gltf_mesh(path: &Path) -> Result<Mesh> {
         let mirrored = map.matrix3.determinant() < 0.0;
         let first = whole.positions.len() as u32;
         // A vertex of its own for each corner where the triangles must bring along what they lack
-        let flat = (normals && mesh.normals.is_empty()) || (uvs && mesh.uvs.is_empty());
+        let flat = (normals && mesh.normals.is_empty()) || ((uvs || uvs1) && mesh.uvs.is_empty());
         let vertices: Vec<usize> = if flat {
             mesh.triangles.iter().flatten().map(|corner| *corner as usize).collect()
         } else {
@@ -47,11 +48,17 @@ pub fn read_gltf_mesh(path: &Path) -> Result<Mesh> {
                 None => normal_map * flat_normal(mesh, i / 3),
             }));
         }
-        if uvs {
-            const CORNERS: [Vec2; 3] = [Vec2::ZERO, Vec2::X, Vec2::ONE];
-            whole.uvs.extend(
-                vertices.iter().enumerate().map(|(i, v)| mesh.uvs.get(*v).copied().unwrap_or(CORNERS[i % 3])),
-            );
+        const CORNERS: [Vec2; 3] = [Vec2::ZERO, Vec2::X, Vec2::ONE];
+        let first_uv = |(i, v): (usize, &usize)| mesh.uvs.get(*v).copied().unwrap_or(CORNERS[i % 3]);
+        if uvs || uvs1 {
+            whole.uvs.extend(vertices.iter().enumerate().map(first_uv));
+        }
+        if uvs1 {
+            let second = |(i, v): (usize, &usize)| mesh.uvs1.get(*v).copied().unwrap_or(first_uv((i, v)));
+            whole.uvs1.extend(vertices.iter().enumerate().map(second));
+        }
+        if colors {
+            whole.colors.extend(vertices.iter().map(|v| mesh.colors.get(*v).copied().unwrap_or(Vec4::ONE)));
         }
         let start = whole.triangles.len() as u32;
         whole.triangles.extend(mesh.triangles.iter().enumerate().map(|(i, corners)| {

@@ -14,6 +14,10 @@ pub(super) struct Vertices {
     pub tangents: Vec<Vec4>,
     /// v upwards.
     pub uvs: Vec<Vec2>,
+    /// The second set of them.
+    pub uvs1: Vec<Vec2>,
+    /// Linear, with alpha.
+    pub colors: Vec<Vec4>,
 }
 
 /// The attributes of a primitive by name, with their accessors, and what else it names.
@@ -98,17 +102,33 @@ impl<'a> Primitive<'a> {
             let Some(reference) = self.attribute(name) else { return Ok(Vec::new()) };
             Ok(document.floats::<3>(reference)?.into_iter().map(Vec3::from).collect())
         };
-        // The second set of coordinates (TEXCOORD_1) and the colours (COLOR_0) of vertices would be read here.
-        let uvs = match self.attribute("TEXCOORD_0") {
-            Some(uvs) => document.floats::<2>(uvs)?.into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect(),
-            None => Vec::new(),
+        let uvs = |name| -> Result<Vec<Vec2>> {
+            let Some(uvs) = self.attribute(name) else { return Ok(Vec::new()) };
+            Ok(document.floats::<2>(uvs)?.into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect())
         };
         let normals = vec3("NORMAL")?;
         let tangents = match self.attribute("TANGENT").filter(|_| !normals.is_empty()) {
             Some(tangents) => document.floats::<4>(tangents)?.into_iter().map(Vec4::from).collect(),
             None => Vec::new(),
         };
-        Ok(Vertices { positions: vec3("POSITION")?, normals, tangents, uvs })
+        Ok(Vertices {
+            positions: vec3("POSITION")?,
+            normals,
+            tangents,
+            uvs: uvs("TEXCOORD_0")?,
+            uvs1: uvs("TEXCOORD_1")?,
+            colors: self.colors(document)?,
+        })
+    }
+
+    /// Colours without alpha are opaque, and none are below 0.
+    fn colors(&self, document: &Document<'_>) -> Result<Vec<Vec4>> {
+        let Some(reference) = self.attribute("COLOR_0") else { return Ok(Vec::new()) };
+        let colors: Vec<Vec4> = match document.accessor(reference)?.1.width {
+            3 => document.floats::<3>(reference)?.into_iter().map(|c| Vec3::from(c).extend(1.0)).collect(),
+            _ => document.floats::<4>(reference)?.into_iter().map(Vec4::from).collect(),
+        };
+        Ok(colors.into_iter().map(|color| color.max(Vec4::ZERO)).collect())
     }
 
     /// The triangles, whose corners are below [`Self::count`].

@@ -5,7 +5,8 @@ use super::json::Json;
 use super::reader::Reader;
 use crate::Result;
 use crate::scene::{
-    Channel, ColorSpace, Handle, Image, ImageTexture, TexelFilter, Texels, Texture, UvTransform, Value, Wrap,
+    Channel, ColorSpace, Handle, Image, ImageTexture, Mapping, TexelFilter, Texels, Texture, UvTransform,
+    Value, Wrap,
 };
 use glam::{Vec2, Vec3};
 
@@ -14,6 +15,12 @@ use glam::{Vec2, Vec3};
 pub(super) struct Part {
     pub color_space: ColorSpace,
     pub channel: Channel,
+}
+
+/// A picture, and whether it lies on a surface by the second set of texture coordinates.
+struct Placed {
+    texture: ImageTexture,
+    second: bool,
 }
 
 /// Colours.
@@ -43,14 +50,14 @@ impl Reader<'_> {
 
     /// The same for a number that is known.
     pub fn scaled(&mut self, info: &Json<'_>, part: Part, factor: f32) -> Result<Value<f32>> {
-        let Some(texture) = self.image_texture(info, part, factor)? else {
+        let Some(placed) = self.image_texture(info, part, factor)? else {
             return Ok(Value::Constant(factor));
         };
-        let image = &self.scene.images[texture.image];
-        if texture.channel == Channel::A && is_opaque(image) {
+        let image = &self.scene.images[placed.texture.image];
+        if placed.texture.channel == Channel::A && is_opaque(image) {
             return Ok(Value::Constant(factor));
         }
-        Ok(Value::Texture(self.add_texture(info, Texture::Image(texture))))
+        Ok(Value::Texture(self.add_picture(info, placed)))
     }
 
     /// A colour times a texture of colours, when the object has a texture of that key.
@@ -61,10 +68,10 @@ impl Reader<'_> {
         }
         // A grey factor is one of the picture itself
         let grey = if factor == Vec3::splat(factor.x) { factor.x } else { 1.0 };
-        let Some(texture) = self.image_texture(&info, COLOR, grey)? else {
+        let Some(placed) = self.image_texture(&info, COLOR, grey)? else {
             return Ok(Value::Constant(factor));
         };
-        let picture = Value::Texture(self.add_texture(&info, Texture::Image(texture)));
+        let picture = Value::Texture(self.add_picture(&info, placed));
         if grey != 1.0 || factor == Vec3::ONE {
             return Ok(picture);
         }
@@ -74,21 +81,29 @@ impl Reader<'_> {
 
     /// A texture of its own.
     pub fn picture(&mut self, info: &Json<'_>, part: Part) -> Result<Option<Handle<Texture>>> {
-        let texture = self.image_texture(info, part, 1.0)?;
-        Ok(texture.map(|texture| self.add_texture(info, Texture::Image(texture))))
+        let placed = self.image_texture(info, part, 1.0)?;
+        Ok(placed.map(|placed| self.add_picture(info, placed)))
     }
 
-    /// Equal textures are one.
-    fn add_texture(&mut self, info: &Json<'_>, texture: Texture) -> Handle<Texture> {
+    /// A texture that is named by its place in the document.
+    pub fn add_texture(&mut self, info: &Json<'_>, texture: Texture) -> Handle<Texture> {
         self.scene.textures.add(info.pointer(), texture)
     }
 
-    fn image_texture(&mut self, info: &Json<'_>, part: Part, scale: f32) -> Result<Option<ImageTexture>> {
+    fn add_picture(&mut self, info: &Json<'_>, placed: Placed) -> Handle<Texture> {
+        let picture = self.add_texture(info, Texture::Image(placed.texture));
+        if !placed.second {
+            return picture;
+        }
+        let mapping = Mapping::second_uv();
+        self.add_texture(info, Texture::Mapped { value: Value::Texture(picture), mapping })
+    }
+
+    fn image_texture(&mut self, info: &Json<'_>, part: Part, scale: f32) -> Result<Option<Placed>> {
         let textures = self.document.root.list("textures")?;
         let texture = &textures[index_into(&info.need("index")?, "textures", textures.len())?];
         let (uv, set) = placed(info)?;
-        if set != 0 {
-            // Here an image texture would be told which set of coordinates it has (`uv_set`)
+        if set > 1 {
             self.warn(
                 info,
                 &format!("the texture uses set {set} of texture coordinates, and is shown by set 0"),
@@ -105,7 +120,8 @@ impl Reader<'_> {
             Ok([wrap(sampler, "wrapS")?, wrap(sampler, "wrapT")?])
         })?;
         let Part { color_space, channel } = part;
-        Ok(Some(ImageTexture { image, filter, wrap, uv, color_space, channel, scale, invert: false }))
+        let texture = ImageTexture { image, filter, wrap, uv, color_space, channel, scale, invert: false };
+        Ok(Some(Placed { texture, second: set == 1 }))
     }
 }
 

@@ -46,3 +46,17 @@ pub struct Mapping {
     /// Exponent of the weights of a triplanar kind: 1 is softest.
     pub sharpness: f32,
 }
+
+impl Mapping {
+    /// The second set of texture coordinates.
+    pub fn second_uv() -> Self {
+        Self {
+            kind: MappingKind::Uv1,
+            space: MappingSpace::Object,
+            mapping_from_space: Affine3A::IDENTITY,
+            pole_u: 0.0,
+            seam_blend: 0.0,
+            sharpness: 4.0,
+        }
+    }
+}

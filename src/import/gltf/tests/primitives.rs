@@ -1,6 +1,7 @@
 //! Triangles of all modes, and vertices of meshes with several primitives.
 
 use super::*;
+use crate::scene::{Channel, Sides, Texture, Value as Input};
 use glam::{Vec2, Vec3};
 
 /// Triangles of a primitive of five vertices in a row.
@@ -105,11 +106,44 @@ fn quantized_attributes_are_numbers_of_their_own() {
 }
 
 #[test]
-fn colours_of_vertices_are_left_out_with_one_warning() {
+fn colours_of_vertices_are_a_factor_on_base_colour_and_opacity() {
     let mut maker = Maker::triangle();
-    let colors = maker.floats(&[[1.0, 0.0, 0.0]; 3]);
-    maker.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
-    assert_eq!(maker.read().unwrap().1.warnings, ["colours of vertices (COLOR_0) are left out"]);
+    let (colors, uvs) = (maker.floats(&[[1.0, 0.5, -1.0]; 3]), maker.floats(&[[0.25, 0.25]; 3]));
+    let attributes = &mut maker.root["meshes"][0]["primitives"][0]["attributes"];
+    attributes["COLOR_0"] = json!(colors);
+    attributes["TEXCOORD_1"] = json!(uvs);
+    maker.root.insert(
+        "materials".into(),
+        json!([{ "alphaMode": "BLEND", "pbrMetallicRoughness": { "baseColorFactor": [1, 1, 1, 0.5] } }]),
+    );
+    maker.root["meshes"][0]["primitives"][0]["material"] = json!(0);
+    let read = maker.read().unwrap();
+    // RGB is opaque, and nothing is below 0
+    assert_eq!(only_mesh(&read).colors, [glam::Vec4::new(1.0, 0.5, 0.0, 1.0); 3]);
+    assert_eq!(only_mesh(&read).uvs1, [Vec2::new(0.25, 0.75); 3]);
+    let (_, _, material) = read.0.materials.iter().next().unwrap();
+    let Surface::Principled(principled) = &material.surface else { panic!("{material:?}") };
+    let base = &read.0.textures[principled.base_color.texture().unwrap()];
+    assert_eq!(*base, Texture::VertexColor(Channel::Rgb));
+    let Input::Texture(opacity) = material.detail.opacity.value else { panic!("{material:?}") };
+    let Texture::Multiply { a, b } = &read.0.textures[opacity] else { panic!("no product") };
+    assert_eq!(*a, Input::Constant(Vec3::splat(0.5)));
+    assert_eq!(read.0.textures[b.texture().unwrap()], Texture::VertexColor(Channel::A));
+    assert!(read.1.warnings.is_empty());
+}
+
+#[test]
+fn what_is_not_double_sided_has_a_front_alone() {
+    let sides = |material: serde_json::Value| {
+        let mut maker = Maker::triangle();
+        maker.root.insert("materials".into(), json!([material]));
+        maker.root["meshes"][0]["primitives"][0]["material"] = json!(0);
+        maker.read().unwrap().0.materials.iter().next().unwrap().2.detail.sides
+    };
+    assert_eq!(sides(json!({})), Sides::Front);
+    assert_eq!(sides(json!({ "doubleSided": true })), Sides::Both);
+    let glass = json!({ "KHR_materials_transmission": { "transmissionFactor": 1 } });
+    assert_eq!(sides(json!({ "extensions": glass })), Sides::Both);
 }
 
 #[test]
