@@ -6,7 +6,7 @@ struct Bsdf {
     uint kind;       // MATERIAL_…
     uint mode;       // FRESNEL_…, or DIELECTRIC_…
     vec3 color;      // reflectance, diffuse coefficient or base colour
-    vec3 specular;   // specular coefficient, factor on what a dielectric reflects head-on, or η of a conductor
+    vec3 specular;   // specular coefficient, transmittance, factor on what a dielectric reflects head-on, or η of a conductor
     vec3 k;          // k of a conductor
     float ior;       // index behind the geometric surface over index in front of it
     float exponent;
@@ -20,6 +20,15 @@ struct Bsdf {
     vec3 sheen;
     float sheen_roughness;
 };
+
+// Where a channel of both colours of a material together is above 1, both are scaled down, so that no energy is made.
+void bsdf_normalise(inout Bsdf b)
+{
+    float most = max_component(b.color + b.specular);
+    float scale = most > 1.0 ? 1.0 / most : 1.0;
+    b.color *= scale;
+    b.specular *= scale;
+}
 
 struct BsdfSample {
     vec3 wi;         // local

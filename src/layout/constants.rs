@@ -133,6 +133,8 @@ constants! {
     MATERIAL_PRINCIPLED = 5;
     /// Material kind: one of two materials at each event.
     MATERIAL_MIX = 6;
+    /// Material kind: Lambertian on both sides.
+    MATERIAL_DIFFUSE_TRANSMISSION = 7;
     /// Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
     MATERIAL_WORDS = 12;
     /// Material flag: it sends light out on both sides.
@@ -145,7 +147,7 @@ constants! {
     INPUT_COLOR = 2;
     /// NumberInputs: GGX widths along ∂p/∂u and across it.
     INPUT_ROUGHNESS = 3;
-    /// ColorInput: specular coefficient of Phong, η of a conductor, specular colour.
+    /// ColorInput: specular coefficient of Phong, transmittance, η of a conductor, specular colour.
     INPUT_SPECULAR = 4;
     /// ColorInput: k of a conductor; absorption inside of glass, which takes no texture.
     INPUT_ABSORPTION = 5;

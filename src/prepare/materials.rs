@@ -6,9 +6,9 @@ use crate::layout::{
     ColorInput, DIELECTRIC_SOLID, DIELECTRIC_THIN, FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE,
     FRESNEL_SCHLICK, INPUT_ABSORPTION, INPUT_CLEARCOAT, INPUT_COLOR, INPUT_EMISSION, INPUT_INDEX,
     INPUT_METALLIC, INPUT_MIX, INPUT_ROUGHNESS, INPUT_SHEEN, INPUT_SHEEN_ROUGHNESS, INPUT_SPECULAR,
-    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_MIX, MATERIAL_PHONG,
-    MATERIAL_PRINCIPLED, MATERIAL_SQUARED, MATERIAL_TWO_SIDED, MATERIAL_UNLIT, MATERIAL_WORDS, Material,
-    MaterialHead, MixInput, NONE, NumberInputs,
+    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_MIX,
+    MATERIAL_PHONG, MATERIAL_PRINCIPLED, MATERIAL_SQUARED, MATERIAL_TWO_SIDED, MATERIAL_UNLIT,
+    MATERIAL_WORDS, Material, MaterialHead, MixInput, NONE, NumberInputs,
 };
 use crate::scene::{self, Conductor, Dielectric, Fresnel, Mix, Principled, Roughness, Scene, Surface, Value};
 use crate::{Error, Result};
@@ -57,6 +57,13 @@ impl Builder<'_> {
             Surface::Diffuse { color } => {
                 self.kind(MATERIAL_DIFFUSE);
                 self.color(INPUT_COLOR, color);
+            }
+            Surface::DiffuseTransmission { reflectance, transmittance } => {
+                self.kind(MATERIAL_DIFFUSE_TRANSMISSION);
+                // There is no inside
+                self.record.head.mode = DIELECTRIC_THIN;
+                self.color(INPUT_COLOR, reflectance);
+                self.color(INPUT_SPECULAR, transmittance);
             }
             Surface::Phong { diffuse, specular, exponent } => {
                 self.kind(MATERIAL_PHONG);

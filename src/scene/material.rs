@@ -158,6 +158,13 @@ pub enum Surface {
         /// Reflectance, in [0, 1].
         color: Value<Vec3>,
     },
+    /// Lambertian on both sides, scaled down where reflectance + transmittance > 1.
+    DiffuseTransmission {
+        /// Part that goes back to the side from which light comes, in [0, 1].
+        reflectance: Value<Vec3>,
+        /// Part that goes on to the other side, in [0, 1].
+        transmittance: Value<Vec3>,
+    },
     /// Modified Phong: kd/π + ks (n+2)/(2π) cosⁿ, scaled down where kd + ks > 1 (Lafortune and Willems 1994).
     Phong {
         /// Diffuse coefficient.
@@ -233,6 +240,9 @@ impl Material {
         let widths = |roughness: &Roughness| [roughness.u.texture(), roughness.v.texture()];
         let surface = match &self.surface {
             Surface::Unlit { color } | Surface::Diffuse { color } => vec![color.texture()],
+            Surface::DiffuseTransmission { reflectance, transmittance } => {
+                vec![reflectance.texture(), transmittance.texture()]
+            }
             Surface::Phong { diffuse, specular, exponent } => {
                 vec![diffuse.texture(), specular.texture(), exponent.texture()]
             }

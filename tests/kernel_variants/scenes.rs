@@ -322,6 +322,12 @@ fn textured() -> Scene {
         exponent: Value::Texture(float),
     };
     let phong = material(&mut scene, phong, None);
+    let leaf = Surface::DiffuseTransmission {
+        reflectance: Value::Texture(srgb),
+        transmittance: Value::Texture(linear),
+    };
+    let leaf = material(&mut scene, leaf, None);
+    place_triangle(&mut scene, leaf, 1);
     let metal = Conductor {
         reflectance: Value::Texture(srgb),
         fresnel: Fresnel::Exact,

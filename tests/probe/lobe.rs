@@ -4,7 +4,10 @@ use crate::common::chi2;
 use crate::common::directions::{CELLS_PHI, CELLS_Z, cell_integrals, cell_of, midpoints};
 use crate::common::probe::{Probe, Word, as_doubles, floats, three, vector};
 use crate::common::random::Random;
-use dapple::layout::{Backend, DIELECTRIC_SOLID, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG};
+use dapple::layout::{
+    Backend, DIELECTRIC_SOLID, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION,
+    MATERIAL_PHONG,
+};
 
 /// A BSDF that is tested.
 #[derive(Clone, Copy, Default)]
@@ -29,7 +32,7 @@ pub struct Lobe {
 impl Lobe {
     /// Whether light can go through.
     pub fn is_clear(&self) -> bool {
-        self.kind == MATERIAL_DIELECTRIC || self.transmission > 0.0
+        matches!(self.kind, MATERIAL_DIELECTRIC | MATERIAL_DIFFUSE_TRANSMISSION) || self.transmission > 0.0
     }
 
     fn header(&self, wo: [f32; 3]) -> Vec<Word> {
@@ -51,6 +54,7 @@ const HEADER: usize = 9;
 
 const BSDF: &str = "
     #define HAS_DIFFUSE
+    #define HAS_DIFFUSE_TRANSMISSION
     #define HAS_PHONG
     #define HAS_CONDUCTOR
     #define HAS_METAL_INDEX

@@ -283,6 +283,7 @@ pub(super) const MATERIAL: Kinds = Kinds {
     kinds: &[
         ("unlit", &["color"]),
         ("diffuse", &["color"]),
+        ("diffuse_transmission", &["color", "transmittance"]),
         ("phong", &["diffuse", "specular", "exponent"]),
         ("conductor", &["reflectance", "fresnel", "eta", "k", "roughness", "alpha"]),
         ("dielectric", &["ior", "roughness", "alpha", "absorption", "thin"]),

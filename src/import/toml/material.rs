@@ -39,21 +39,15 @@ impl Reader<'_> {
         let (view, kind) = View::of_kind(self.sources, &entry.node, format!("material `{name}`"), &MATERIAL)?;
         let surface = match kind {
             "unlit" => Surface::Unlit { color: self.color(view.need("color")?, Limits::AtLeast(0.0))? },
+            "diffuse_transmission" => {
+                let [reflectance, transmittance] =
+                    self.two_parts(entry, &view, [("color", 0.25), ("transmittance", 0.25)])?;
+                Surface::DiffuseTransmission { reflectance, transmittance }
+            }
             "phong" => {
-                let diffuse = self.color_or(&view, "diffuse", 0.5, REFLECTANCE)?;
-                let specular = self.color_or(&view, "specular", 0.0, REFLECTANCE)?;
+                let [diffuse, specular] =
+                    self.two_parts(entry, &view, [("diffuse", 0.5), ("specular", 0.0)])?;
                 let exponent = self.number_or(&view, "exponent", 50.0, Limits::From(0.0, MAX_EXPONENT))?;
-                if let (Value::Constant(kd), Value::Constant(ks)) = (diffuse, specular) {
-                    let sum = (kd + ks).max_element();
-                    if sum > 1.0 {
-                        let sum = number(f64::from(sum));
-                        let what = &view.what;
-                        self.warn(
-                            entry.spot,
-                            format!("`diffuse` + `specular` reaches {sum} in {what}; it is scaled down to 1"),
-                        );
-                    }
-                }
                 Surface::Phong { diffuse, specular, exponent }
             }
             "conductor" => Surface::Conductor(self.conductor(&view)?),
@@ -65,6 +59,29 @@ impl Reader<'_> {
         let emission = self.emission(&view, &entry.key)?;
         let detail = self.detail(&view)?;
         Ok(Material { surface, emission, detail })
+    }
+
+    /// Two parts of the light, which together should be 1 at most.
+    fn two_parts(
+        &mut self,
+        entry: &Entry,
+        view: &View<'_>,
+        keys: [(&str, f32); 2],
+    ) -> Result<[Value<Vec3>; 2]> {
+        let [(a, usual_a), (b, usual_b)] = keys;
+        let parts =
+            [self.color_or(view, a, usual_a, REFLECTANCE)?, self.color_or(view, b, usual_b, REFLECTANCE)?];
+        if let [Value::Constant(first), Value::Constant(second)] = parts {
+            let sum = (first + second).max_element();
+            if sum > 1.0 {
+                let (sum, what) = (number(f64::from(sum)), &view.what);
+                self.warn(
+                    entry.spot,
+                    format!("`{a}` + `{b}` reaches {sum} in {what}; it is scaled down to 1"),
+                );
+            }
+        }
+        Ok(parts)
     }
 
     fn color_or(&self, view: &View<'_>, key: &str, default: f32, limits: Limits) -> Result<Value<Vec3>> {

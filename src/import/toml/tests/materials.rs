@@ -34,6 +34,9 @@ fn materials_take_every_key() {
         material("chalk").emission.as_ref().unwrap().radiance,
         Value::Constant(Vec3::new(2.0, 4.0, 6.0))
     );
+    let transmittance = Value::Texture(texture("plain"));
+    let reflectance = Value::Constant(Vec3::new(0.125, 0.5, 0.0));
+    assert_eq!(material("leaf").surface, Surface::DiffuseTransmission { reflectance, transmittance });
     let opacity = &material("chalk").detail.opacity;
     assert_eq!((opacity.value, opacity.cutoff), (Value::Texture(texture("plain")), Some(0.75)));
     assert_eq!(opacity.filter, Value::Constant(Vec3::new(1.0, 0.5, 0.25)));
