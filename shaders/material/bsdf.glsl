@@ -16,9 +16,13 @@ struct Bsdf {
     float weight;    // of what the dielectric reflects
     float transmission;
     float coat;
-    vec2 coat_alpha; // both the same
+    vec2 coat_alpha; // both the same; or those of an interface
     vec3 sheen;
     float sheen_roughness;
+    // And of an interface
+    uint through_table; // word of the table of what it lets through
+    uint inner_table;   // word of that of what comes back under it
+    float through_mean; // what it lets through, when smooth, of light from everywhere
 };
 
 // Where a channel of both colours of a material together is above 1, both are scaled down, so that no energy is made.
@@ -45,7 +49,12 @@ const float BSDF_SMOOTH = 1e-3;
 
 bool bsdf_is_smooth(Bsdf b) { return max(b.alpha.x, b.alpha.y) < BSDF_SMOOTH; }
 
+// Switch: HAS_COATED_CONDUCTOR.
 bool bsdf_is_specular(Bsdf b)
 {
+#ifdef HAS_COATED_CONDUCTOR
+    // Under a rough interface metal is rough
+    if (b.kind == MATERIAL_COATED_CONDUCTOR) return bsdf_is_smooth(b);
+#endif
     return (b.kind == MATERIAL_CONDUCTOR || b.kind == MATERIAL_DIELECTRIC) && bsdf_is_smooth(b);
 }

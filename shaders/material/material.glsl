@@ -1,10 +1,13 @@
 // The menu of materials: one switch a verb. Kinds that the scene does not use are left out by switches of the variant: HAS_DIFFUSE,
-// HAS_DIFFUSE_TRANSMISSION, HAS_PHONG, HAS_CONDUCTOR, HAS_DIELECTRIC, HAS_PRINCIPLED.
+// HAS_DIFFUSE_TRANSMISSION, HAS_PHONG, HAS_CONDUCTOR, HAS_DIELECTRIC, HAS_COATED_DIFFUSE,
+// HAS_COATED_CONDUCTOR, HAS_PRINCIPLED.
 #include "material/diffuse.glsl"
 #include "material/diffuse_transmission.glsl"
 #include "material/phong.glsl"
 #include "material/conductor.glsl"
 #include "material/dielectric.glsl"
+#include "material/coated_diffuse.glsl"
+#include "material/coated_conductor.glsl"
 #include "material/principled_verbs.glsl"
 #include "material/point.glsl"
 
@@ -26,6 +29,12 @@ vec3 bsdf_eval(Bsdf b, vec3 wo, vec3 wi)
 #endif
 #ifdef HAS_DIELECTRIC
     case MATERIAL_DIELECTRIC: return dielectric_eval(b, wo, wi);
+#endif
+#ifdef HAS_COATED_DIFFUSE
+    case MATERIAL_COATED_DIFFUSE: return coated_diffuse_eval(b, wo, wi);
+#endif
+#ifdef HAS_COATED_CONDUCTOR
+    case MATERIAL_COATED_CONDUCTOR: return coated_conductor_eval(b, wo, wi);
 #endif
 #ifdef HAS_PRINCIPLED
     case MATERIAL_PRINCIPLED: return principled_eval(b, wo, wi);
@@ -53,6 +62,12 @@ float bsdf_pdf(Bsdf b, vec3 wo, vec3 wi)
 #ifdef HAS_DIELECTRIC
     case MATERIAL_DIELECTRIC: return dielectric_pdf(b, wo, wi);
 #endif
+#ifdef HAS_COATED_DIFFUSE
+    case MATERIAL_COATED_DIFFUSE: return coated_diffuse_pdf(b, wo, wi);
+#endif
+#ifdef HAS_COATED_CONDUCTOR
+    case MATERIAL_COATED_CONDUCTOR: return coated_conductor_pdf(b, wo, wi);
+#endif
 #ifdef HAS_PRINCIPLED
     case MATERIAL_PRINCIPLED: return principled_pdf(b, wo, wi);
 #endif
@@ -77,6 +92,12 @@ BsdfSample bsdf_sample(Bsdf b, vec3 wo, float lobe, vec2 u01)
 #endif
 #ifdef HAS_DIELECTRIC
     case MATERIAL_DIELECTRIC: return dielectric_sample(b, wo, lobe, u01);
+#endif
+#ifdef HAS_COATED_DIFFUSE
+    case MATERIAL_COATED_DIFFUSE: return coated_diffuse_sample(b, wo, lobe, u01);
+#endif
+#ifdef HAS_COATED_CONDUCTOR
+    case MATERIAL_COATED_CONDUCTOR: return coated_conductor_sample(b, wo, lobe, u01);
 #endif
 #ifdef HAS_PRINCIPLED
     case MATERIAL_PRINCIPLED: return principled_sample(b, wo, lobe, u01);

@@ -65,9 +65,7 @@ unsupported! {
     Octahedral: "wrap \"octahedralsphere\"", "\"repeat\"";
     Encoding: "encoding \"gamma …\"", "\"sRGB\"";
     Ptex: "Texture \"ptex\"", "a constant of 0.5";
-    CoatedDiffuse: "Material \"coateddiffuse\"", "a \"principled\" material without light between the layers";
-    CoatedConductor: "Material \"coatedconductor\"", "its conductor alone";
-    DiffuseTransmission: "Material \"diffusetransmission\"", "its reflection alone";
+    LayerMedium: "albedo of \"coateddiffuse\" or \"coatedconductor\"", "nothing is between the layers";
     Hair: "Material \"hair\"", "a \"diffuse\" one of 0.5";
     Measured: "Material \"measured\"", "a \"diffuse\" one of 0.5";
     Subsurface: "Material \"subsurface\"", "a \"diffuse\" one of 0.5";
