@@ -21,7 +21,7 @@ struct Bsdf {
     float sheen_roughness;
     // And of an interface
     uint through_table; // word of the table of what it lets through
-    uint inner_table;   // word of that of what comes back under it
+    uint inner_table;   // word of that of what leaves metal under it
     float through_mean; // what it lets through, when smooth, of light from everywhere
 };
 

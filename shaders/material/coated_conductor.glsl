@@ -1,18 +1,19 @@
 // A dielectric interface over metal. Light is bent on its way in, meets the GGX lobe of the metal, and is bent on its way out:
-// f = f_interface + T(μo) T(μi) f_metal(wo', wi') / (η² (1 − R K)). R is what the facet of the metal reflects, and K the part of what
-// white metal scatters that the interface sends back to it: 1 / (1 − R K) is the light that goes to and fro. Where both are smooth
-// K is the reflectance F of the interface, and the whole F + T² R / (1 − R F), which is exact. K is the lesser of those of the two
-// directions, so that light goes both ways alike and none is made. A rough interface widens the lobe (coated_conductor_widths).
+// f = f_interface + T(μo) T(μi) f_metal(wo', wi') / (η² (1 − R K)). R is what the facet of the metal reflects, and K stands for what
+// the interface sends back: 1 / (1 − R K) is the light that goes to and fro. K = 1 − e(μo) e(μi), where e is such that white metal sends
+// out in all what the series does, for each direction; light goes both ways alike. Where both are smooth, e² is the transmittance
+// 1 − F of the interface, and the whole F + T² R / (1 − R F), which is exact. A rough interface widens the lobe
+// (coated_conductor_widths).
 #include "material/conductor.glsl"
 #include "material/interface.glsl"
 
-// The part of what the metal scatters, seen from a direction outside, that comes back to it.
-float coated_conductor_returned(Bsdf b, float cos_o)
+// e of a direction outside.
+float coated_conductor_leaving(Bsdf b, float cos_o)
 {
 #ifdef HAS_INTERFACE_TABLES
     if (!bsdf_is_smooth(b)) return interface_table(b.inner_table, cos_o, interface_width(b.alpha));
 #endif
-    return fresnel_dielectric(cos_o, b.ior);
+    return safe_sqrt(1.0 - fresnel_dielectric(cos_o, b.ior));
 }
 
 // Chance of sampling the interface; `below` is the direction of view under it.
@@ -34,10 +35,10 @@ CoatedValue coated_conductor_value(Bsdf b, vec3 wo, vec3 wi)
     vec3 below_i = interface_below(b, wi);
     float chance = coated_conductor_chance(b, wo.z, below_o);
     vec3 r = conductor_fresnel(b, dot(below_o, normalize(below_o + below_i)));
-    float returned = min(coated_conductor_returned(b, wo.z), coated_conductor_returned(b, wi.z));
+    float leaving = coated_conductor_leaving(b, wo.z) * coated_conductor_leaving(b, wi.z);
     float through = interface_through(b, wo.z) * interface_through(b, wi.z) / sqr(b.ior);
     CoatedValue v = interface_reflected(b, wo, wi);
-    v.f += conductor_eval(b, below_o, below_i) * through / max(1.0 - r * returned, 1e-6);
+    v.f += conductor_eval(b, below_o, below_i) * through / max(mix(vec3(1.0), vec3(leaving), r), 1e-6);
     v.pdf = mix(conductor_pdf(b, below_o, below_i) * wi.z / (sqr(b.ior) * below_i.z), v.pdf, chance);
     return v;
 }

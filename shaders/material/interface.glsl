@@ -1,5 +1,5 @@
 // A dielectric interface over an opaque base, seen from outside: b.ior is its index and b.coat_alpha its GGX widths. Tables of what a
-// rough one lets through, and of what comes back to a rough base, are behind the materials. Switch: HAS_INTERFACE_TABLES.
+// rough one lets through, and of what leaves rough metal under one, are behind the materials. Switch: HAS_INTERFACE_TABLES.
 #include "shared/bindings.glsl"
 #include "material/bsdf.glsl"
 #include "material/fresnel.glsl"

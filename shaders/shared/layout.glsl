@@ -394,7 +394,7 @@ NumberInputs number_inputs_unpack(uvec4 w0)
 
 struct InterfaceInput {
     uint through_table; // word of `materials` with the table of what it lets through when rough, or NONE
-    uint inner_table; // word with the table of what comes back to a rough base, or NONE
+    uint inner_table; // word with the table of what leaves rough metal below it, or NONE
     float through_mean; // what it lets through when smooth of light from everywhere: 2 ∫ T(μ) μ dμ
     uint spare; // room
 };

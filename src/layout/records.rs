@@ -278,7 +278,7 @@ records! {
     struct InterfaceInput {
         /// word of `materials` with the table of what it lets through when rough, or NONE
         through_table: u32,
-        /// word with the table of what comes back to a rough base, or NONE
+        /// word with the table of what leaves rough metal below it, or NONE
         inner_table: u32,
         /// what it lets through when smooth of light from everywhere: 2 ∫ T(μ) μ dμ
         through_mean: f32,
