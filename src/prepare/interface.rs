@@ -56,6 +56,9 @@ impl<'a> Interfaces<'a> {
 
 /// Unpolarised reflectance of a dielectric; `eta` is the index behind over that in front.
 fn fresnel(cos: f64, eta: f64) -> f64 {
+    if eta == 1.0 {
+        return 0.0;
+    }
     let sin2 = (1.0 - cos * cos) / (eta * eta);
     if sin2 >= 1.0 {
         return 1.0;
