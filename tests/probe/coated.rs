@@ -21,7 +21,7 @@ fn tables(ior: f32) -> Tables {
     let conductor = Conductor { reflectance: grey(1.0), fresnel: Fresnel::None, roughness };
     let coated = CoatedConductor { conductor, interface: Interface { ior, roughness } };
     s.material(Surface::CoatedConductor(Box::new(coated)), None);
-    let prepared = prepare(&s).unwrap();
+    let Ok(prepared) = prepare(&s) else { panic!("a scene of one material") };
     let mut record: dapple::layout::InterfaceInput =
         bytemuck::cast(prepared.materials[0].inputs[INPUT_INTERFACE as usize - 1]);
     record.through_table -= MATERIAL_WORDS;
