@@ -30,6 +30,7 @@ mod motion;
 mod offset;
 mod opacity;
 mod paths;
+mod pbrt_lights;
 mod planes;
 mod relief;
 mod sides;
