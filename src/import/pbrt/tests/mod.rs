@@ -89,7 +89,7 @@ const ALL: &str = include_str!("all.pbrt");
 fn a_scene_with_everything_is_read() {
     let (_, warnings) = read(ALL).unwrap_or_else(|error| panic!("{error}"));
     assert!(warnings.iter().all(|warning| warning.message.starts_with("not supported: ")));
-    assert!(warnings.len() >= 25, "{}", warnings.len());
+    assert!(warnings.len() >= 20, "{}", warnings.len());
 }
 
 #[test]
