@@ -14,7 +14,7 @@ use glam::{DVec3, dvec3};
 use std::f64::consts::PI;
 
 /// The tables of an index, as a scene with one rough material has them.
-#[allow(clippy::unwrap_used, reason = "a helper of tests fails the test that called it")]
+#[allow(clippy::panic, reason = "a helper of tests fails the test that called it")]
 fn tables(ior: f32) -> Tables {
     let mut s = scene(4, 4, 1);
     let roughness = Roughness::alpha(0.5);
