@@ -15,7 +15,7 @@ fn materials() {
         ),
         (
             "[material.m]\nkind = 'diffuse'\nalpha = 1",
-            "3:1: unknown key `alpha` in diffuse material `m`; it is a key of conductor, dielectric, principled",
+            "3:1: unknown key `alpha` in diffuse material `m`; it is a key of conductor, dielectric, coated_diffuse, coated_conductor, principled",
         ),
         ("[material.m]\nkind = 'diffuse'\ncolor = 1.5", "3:9: `color` is 1.5, must be from 0 to 1"),
         (
@@ -90,7 +90,7 @@ fn materials() {
         ),
         (
             "[material.m]\nkind = 'principled'\ncolor = 1",
-            "3:1: unknown key `color` in principled material `m`; it is a key of unlit, diffuse",
+            "3:1: unknown key `color` in principled material `m`; it is a key of unlit, diffuse, diffuse_transmission, coated_diffuse",
         ),
         ("[material.m]\nkind = 'mix'\na = 'm'", "1:1: `b` is missing in mix material `m`"),
         (
