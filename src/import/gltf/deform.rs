@@ -28,9 +28,11 @@ pub(super) fn morph(
                         *tangent += (Vec3::from(by) * weight).extend(0.0);
                     }
                 }
-                "TEXCOORD_0" => {
-                    for (uv, [u, v]) in vertices.uvs.iter_mut().zip(document.floats::<2>(reference)?) {
-                        *uv += Vec2::new(u, -v) * weight;
+                "TEXCOORD_0" => slide(&mut vertices.uvs, document.floats::<2>(reference)?, weight),
+                "TEXCOORD_1" => slide(&mut vertices.uvs1, document.floats::<2>(reference)?, weight),
+                "COLOR_0" => {
+                    for (color, by) in vertices.colors.iter_mut().zip(document.colors(reference, 0.0)?) {
+                        *color += by * weight;
                     }
                 }
                 _ => {}
@@ -42,6 +44,10 @@ pub(super) fn morph(
 
 fn add(vectors: &mut [Vec3], by: Vec<[f32; 3]>, weight: f32) {
     vectors.iter_mut().zip(by).for_each(|(vector, by)| *vector += Vec3::from(by) * weight);
+}
+
+fn slide(uvs: &mut [Vec2], by: Vec<[f32; 2]>, weight: f32) {
+    uvs.iter_mut().zip(by).for_each(|(uv, [u, v])| *uv += Vec2::new(u, -v) * weight);
 }
 
 /// From the mesh to the world for each joint of a skin.

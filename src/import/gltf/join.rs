@@ -3,7 +3,7 @@
 use super::{ModelChoice, read_model};
 use crate::scene::{Mesh, MeshPart, Scene};
 use crate::{Error, Result};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use std::path::Path;
 
 /// Most triangles of a mesh that is joined: instances are stored one by one.
@@ -23,9 +23,11 @@ pub fn read_gltf_mesh(path: &Path) -> Result<Mesh> {
             format!("the model has more than {MOST_TRIANGLES} triangles, with its instances one by one");
         return Err(Error::scene(message).help("place it as an [[instance]] with `file`").in_file(path));
     }
-    // A mesh has normals and texture coordinates everywhere or nowhere
+    // A mesh has each attribute everywhere or nowhere
     let any = |has: fn(&Mesh) -> bool| model.instances.iter().any(|i| has(&scene.meshes[i.mesh]));
-    let (normals, uvs) = (any(|mesh| !mesh.normals.is_empty()), any(|mesh| !mesh.uvs.is_empty()));
+    let (normals, colors) = (any(|mesh| !mesh.normals.is_empty()), any(|mesh| !mesh.colors.is_empty()));
+    let uvs1 = any(|mesh| !mesh.uvs1.is_empty());
+    let uvs = uvs1 || any(|mesh| !mesh.uvs.is_empty());
     let mut whole = Mesh::default();
     for instance in &model.instances {
         let mesh = &scene.meshes[instance.mesh];
@@ -47,11 +49,17 @@ pub fn read_gltf_mesh(path: &Path) -> Result<Mesh> {
                 None => normal_map * flat_normal(mesh, i / 3),
             }));
         }
+        const CORNERS: [Vec2; 3] = [Vec2::ZERO, Vec2::X, Vec2::ONE];
+        let uv = |i: usize, v: usize| mesh.uvs.get(v).copied().unwrap_or(CORNERS[i % 3]);
         if uvs {
-            const CORNERS: [Vec2; 3] = [Vec2::ZERO, Vec2::X, Vec2::ONE];
-            whole.uvs.extend(
-                vertices.iter().enumerate().map(|(i, v)| mesh.uvs.get(*v).copied().unwrap_or(CORNERS[i % 3])),
-            );
+            whole.uvs.extend(vertices.iter().enumerate().map(|(i, v)| uv(i, *v)));
+        }
+        if uvs1 {
+            let second = |(i, v): (usize, &usize)| mesh.uvs1.get(*v).copied().unwrap_or_else(|| uv(i, *v));
+            whole.uvs1.extend(vertices.iter().enumerate().map(second));
+        }
+        if colors {
+            whole.colors.extend(vertices.iter().map(|v| mesh.colors.get(*v).copied().unwrap_or(Vec4::ONE)));
         }
         let start = whole.triangles.len() as u32;
         whole.triangles.extend(mesh.triangles.iter().enumerate().map(|(i, corners)| {

@@ -5,7 +5,7 @@ use super::reader::Reader;
 use super::texture::{VECTOR, number_in};
 use crate::Result;
 use crate::scene::{
-    Channel, Detail, Emission, Handle, Material, NormalMap, Opacity, Principled, Roughness, Surface,
+    Channel, Detail, Emission, Handle, Material, NormalMap, Opacity, Principled, Roughness, Sides, Surface,
     Tangents, Value,
 };
 use glam::{Vec3, Vec4};
@@ -22,54 +22,59 @@ const LEFT_OUT: [&str; 5] = [
 ];
 
 impl<'a> Reader<'a> {
-    /// A material of the document, or the default of the specification. Each is read once.
-    pub fn material(&mut self, index: Option<usize>) -> Result<Handle<Material>> {
-        if let Some(known) = self.known_materials.get(&index) {
+    /// A material of the document, or the default of the specification, for vertices with colours or without. Each is read once.
+    pub fn material(&mut self, index: Option<usize>, colored: bool) -> Result<Handle<Material>> {
+        if let Some(known) = self.known_materials.get(&(index, colored)) {
             return Ok(*known);
         }
         let handle = match index {
             None => {
                 let white = Principled {
-                    base_color: Value::Constant(Vec3::ONE),
+                    base_color: self.dyed(Value::Constant(Vec3::ONE), Channel::Rgb, colored),
                     metallic: Value::Constant(1.0),
                     roughness: roughness(Value::Constant(1.0)),
                     ..Principled::default()
                 };
-                let material = Material::new(Surface::Principled(Box::new(white)), None);
-                self.scene.materials.add("default material", material)
+                let surface = Surface::Principled(Box::new(white));
+                let detail = Detail { sides: Sides::Front, ..Detail::default() };
+                self.scene.materials.add("default material", Material { surface, emission: None, detail })
             }
             Some(index) => {
                 let json = self.materials[index].clone();
-                let material = self.read_material(&json)?;
+                let material = self.read_material(&json, colored)?;
                 self.scene.materials.add(json.name("material", index)?, material)
             }
         };
-        self.known_materials.insert(index, handle);
+        self.known_materials.insert((index, colored), handle);
         Ok(handle)
     }
 
-    fn read_material(&mut self, json: &Json<'a>) -> Result<Material> {
+    fn read_material(&mut self, json: &Json<'a>, colored: bool) -> Result<Material> {
         for name in LEFT_OUT {
             if json.extension(name)?.is_some() {
                 self.warn(json, &format!("the material is seen without {name}"));
             }
         }
         let double_sided = json.flag("doubleSided")?;
-        // Materials that are not double-sided would be told here that they have a front alone (`sides`)
-        let (base_color, opacity) = self.base(json)?;
-        let detail = Detail { opacity, normal_map: self.normal_map(json)?, ..Detail::default() };
+        let (base_color, opacity) = self.base(json, colored)?;
+        let sides = if double_sided { Sides::Both } else { Sides::Front };
+        let mut detail = Detail { opacity, sides, normal_map: self.normal_map(json)?, ..Detail::default() };
         if json.extension("KHR_materials_unlit")?.is_some() {
             return Ok(Material { surface: Surface::Unlit { color: base_color }, emission: None, detail });
         }
         let mut principled = Principled { base_color, ..Principled::default() };
         self.metallic_roughness(json, &mut principled)?;
         self.layers(json, &mut principled)?;
+        if principled.transmission != Value::Constant(0.0) {
+            // Light leaves through what is met from behind
+            detail.sides = Sides::Both;
+        }
         let emission = self.emission(json, double_sided)?;
         Ok(Material { surface: Surface::Principled(Box::new(principled)), emission, detail })
     }
 
-    /// Base colour and opacity. Colours of vertices would be a factor on both.
-    fn base(&mut self, json: &Json<'a>) -> Result<(Value<Vec3>, Opacity)> {
+    /// Base colour and opacity, and colours of vertices as a factor on both.
+    fn base(&mut self, json: &Json<'a>, colored: bool) -> Result<(Value<Vec3>, Opacity)> {
         let (mut factor, mut texture) = (Vec4::ONE, None);
         let pbr = json.get("pbrMetallicRoughness")?;
         let color = match &pbr {
@@ -80,6 +85,7 @@ impl<'a> Reader<'a> {
             }
             None => Value::Constant(Vec3::ONE),
         };
+        let color = self.dyed(color, Channel::Rgb, colored);
         let mode = json.get("alphaMode")?;
         let cutoff = match mode.as_ref().map(Json::string).transpose()? {
             None | Some("OPAQUE") => return Ok((color, Opacity::default())),
@@ -91,6 +97,7 @@ impl<'a> Reader<'a> {
             Some(info) => self.scaled(&info, number_in(Channel::A), factor.w)?,
             None => Value::Constant(factor.w),
         };
+        let value = self.dyed(value, Channel::A, colored);
         Ok((color, Opacity { value, cutoff, ..Opacity::default() }))
     }
 

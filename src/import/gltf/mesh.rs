@@ -9,7 +9,7 @@ use super::reader::Reader;
 use crate::Result;
 use crate::import::mesh::normalize_normals;
 use crate::scene::{Handle, Material, Mesh, MeshPart};
-use glam::Affine3A;
+use glam::{Affine3A, Vec4};
 use std::collections::HashMap;
 
 /// A mesh of the document, whose attributes go together.
@@ -64,11 +64,11 @@ impl Pose<'_> {
 }
 
 /// Attributes of which a mesh has all or none: a mesh of the scene has each for all of its vertices.
-const OPTIONAL: [&str; 3] = ["NORMAL", "TANGENT", "TEXCOORD_0"];
+const OPTIONAL: [&str; 5] = ["NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"];
 
 /// Primitives with the same optional attributes.
 struct Group<'a> {
-    has: [bool; 3],
+    has: [bool; OPTIONAL.len()],
     mesh: Mesh,
     /// First vertex of primitives whose attributes are read already.
     first: HashMap<Vec<(&'a str, usize)>, u32>,
@@ -82,9 +82,6 @@ impl<'a> Reader<'a> {
             if !primitive.has_area() {
                 self.warn(&primitive.json, "points, lines and primitives without positions are left out");
                 continue;
-            }
-            if primitive.attribute("COLOR_0").is_some() {
-                self.note("colours of vertices (COLOR_0) are left out");
             }
             let material = self.material_of(primitive)?;
             let has = OPTIONAL.map(|name| primitive.attribute(name).is_some());
@@ -124,6 +121,9 @@ impl<'a> Reader<'a> {
                 mesh.normals.append(&mut vertices.normals);
                 mesh.tangents.append(&mut vertices.tangents);
                 mesh.uvs.append(&mut vertices.uvs);
+                mesh.uvs1.append(&mut vertices.uvs1);
+                // What is outside counts as the nearer end (section 3.7.2.1)
+                mesh.colors.extend(vertices.colors.iter().map(|color| color.clamp(Vec4::ZERO, Vec4::ONE)));
                 group.first.insert(identity, first);
                 first
             }

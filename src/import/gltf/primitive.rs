@@ -14,6 +14,10 @@ pub(super) struct Vertices {
     pub tangents: Vec<Vec4>,
     /// v upwards.
     pub uvs: Vec<Vec2>,
+    /// The second set.
+    pub uvs1: Vec<Vec2>,
+    /// Linear, with alpha.
+    pub colors: Vec<Vec4>,
 }
 
 /// The attributes of a primitive by name, with their accessors, and what else it names.
@@ -98,9 +102,12 @@ impl<'a> Primitive<'a> {
             let Some(reference) = self.attribute(name) else { return Ok(Vec::new()) };
             Ok(document.floats::<3>(reference)?.into_iter().map(Vec3::from).collect())
         };
-        // The second set of coordinates (TEXCOORD_1) and the colours (COLOR_0) of vertices would be read here.
-        let uvs = match self.attribute("TEXCOORD_0") {
-            Some(uvs) => document.floats::<2>(uvs)?.into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect(),
+        let uvs = |name| -> Result<Vec<Vec2>> {
+            let Some(reference) = self.attribute(name) else { return Ok(Vec::new()) };
+            Ok(document.floats::<2>(reference)?.into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect())
+        };
+        let colors = match self.attribute("COLOR_0") {
+            Some(colors) => document.colors(colors, 1.0)?,
             None => Vec::new(),
         };
         let normals = vec3("NORMAL")?;
@@ -108,7 +115,14 @@ impl<'a> Primitive<'a> {
             Some(tangents) => document.floats::<4>(tangents)?.into_iter().map(Vec4::from).collect(),
             None => Vec::new(),
         };
-        Ok(Vertices { positions: vec3("POSITION")?, normals, tangents, uvs })
+        Ok(Vertices {
+            positions: vec3("POSITION")?,
+            normals,
+            tangents,
+            uvs: uvs("TEXCOORD_0")?,
+            uvs1: uvs("TEXCOORD_1")?,
+            colors,
+        })
     }
 
     /// The triangles, whose corners are below [`Self::count`].

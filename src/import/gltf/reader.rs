@@ -22,8 +22,8 @@ pub(super) struct Reader<'a> {
     pub scene: &'a mut Scene,
     /// All materials of the document.
     pub materials: Vec<Json<'a>>,
-    /// Those that are in the scene already; the default is that without a number.
-    pub known_materials: BTreeMap<Option<usize>, Handle<Material>>,
+    /// Those that are in the scene already, with colours of vertices and without; the default is that without a number.
+    pub known_materials: BTreeMap<(Option<usize>, bool), Handle<Material>>,
     /// Pictures that are in the scene already.
     pub images: BTreeMap<usize, Handle<Image>>,
     /// The variant that is shown.
@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
         for source in sources {
             self.mesh(source, &Pose { weights: &source.weights, joints: None })?;
         }
-        (0..self.materials.len()).try_for_each(|material| self.material(Some(material)).map(drop))?;
+        (0..self.materials.len()).try_for_each(|material| self.material(Some(material), false).map(drop))?;
         self.document.root.list("images")?.iter().enumerate().try_for_each(|(i, _)| self.image(i).map(drop))
     }
 

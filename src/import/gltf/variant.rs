@@ -34,18 +34,19 @@ impl<'a> Reader<'a> {
     /// The material of a primitive: that of the variant, or else its own, or else the default of the specification.
     pub fn material_of(&mut self, primitive: &Primitive<'a>) -> Result<Handle<Material>> {
         let count = self.materials.len();
+        let colored = primitive.attribute("COLOR_0").is_some();
         if let (Some(variant), Some(extension)) = (self.variant, primitive.json.extension(EXTENSION)?) {
             for mapping in extension.need("mappings")?.items()? {
                 for number in mapping.need("variants")?.items()? {
                     if number.whole()? == variant {
                         let index = index_into(&mapping.need("material")?, "materials", count)?;
-                        return self.material(Some(index));
+                        return self.material(Some(index), colored);
                     }
                 }
             }
         }
         let own = primitive.json.get("material")?;
         let own = own.map(|reference| index_into(&reference, "materials", count)).transpose()?;
-        self.material(own)
+        self.material(own, colored)
     }
 }

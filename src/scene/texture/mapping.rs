@@ -46,3 +46,17 @@ pub struct Mapping {
     /// Exponent of the weights of a triplanar kind: 1 is softest.
     pub sharpness: f32,
 }
+
+impl Mapping {
+    /// In object space, as it is there, without a faded seam and with weights of a middle sharpness.
+    pub fn new(kind: MappingKind) -> Self {
+        Self {
+            kind,
+            space: MappingSpace::Object,
+            mapping_from_space: Affine3A::IDENTITY,
+            pole_u: 0.0,
+            seam_blend: 0.0,
+            sharpness: 4.0,
+        }
+    }
+}
