@@ -1,11 +1,9 @@
-//! Scenes of `../shared/reference`, built by hand in the scene language, against the pictures of pbrt-v4 and
-//! Mitsuba 3.
+//! Scenes of `../shared/reference` against the pictures of pbrt-v4 and Mitsuba 3.
 //!
-//! Every test renders `tests/scenes/reference/NAME.toml` on the default device, writes
-//! `target/reference/NAME.exr`, and `NAME.png` with the reference, the picture and their difference, and puts both to the
-//! test of `dapple::diff`. The noise of the picture is what its film says.
-//!
-//! The scenes of pbrt are read a second time as they are, by dapple's reader of pbrt-v4, and put to the same test.
+//! Scenes of pbrt are rendered as they are. Those of Mitsuba are built by hand in the scene language:
+//! `tests/scenes/reference/NAME.toml`. Every test renders one on the default device, writes `target/reference/NAME.exr`, and
+//! `NAME.png` with the reference, the picture and their difference, and puts both to the test of `dapple::diff`. The noise of
+//! the picture is what its film says.
 //!
 //! These references show what dapple cannot render yet:
 //!
@@ -39,36 +37,29 @@ fn device() -> &'static Mutex<(Arc<Gpu>, Compiler)> {
     })
 }
 
-/// Renders a scene of `tests/scenes/reference` and compares it with the picture of `renderer`.
+/// Renders a scene and compares it with the picture of `renderer`.
 fn check(renderer: &str, name: &str) {
     let Some(folder) = folder().unwrap() else { return };
     let expected = reference(&folder, renderer, name).unwrap();
-    let path = root().join("tests/scenes/reference").join(name).with_extension("toml");
-    // Scenes need not use all of `meshes.toml`
-    let scene = read(&path, &[], |warning| warning.contains("meshes.toml"));
+    let scene = if renderer == "pbrt" {
+        let path = folder.join("pbrt").join(name).with_extension("pbrt");
+        read(&path, &[("render.spp", "256")])
+    } else {
+        read(&root().join("tests/scenes/reference").join(name).with_extension("toml"), &[])
+    };
     compare_with(&expected, &scene, name);
-}
-
-/// Renders a scene of pbrt as it is, and compares it with the picture of pbrt.
-fn check_pbrt(name: &str) {
-    let Some(folder) = folder().unwrap() else { return };
-    let expected = reference(&folder, "pbrt", name).unwrap();
-    let path = folder.join("pbrt").join(name).with_extension("pbrt");
-    let as_meshes = |warning: &str| warning.contains("not supported") && warning.ends_with(": a mesh");
-    let scene = read(&path, &[("render.spp", "256")], as_meshes);
-    compare_with(&expected, &scene, &format!("{name}_pbrt"));
 }
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Reads a scene that has no warnings but those that `may_be`.
-fn read(path: &Path, settings: &[(&str, &str)], may_be: impl Fn(&str) -> bool) -> Scene {
+/// Reads a scene that has no warnings.
+fn read(path: &Path, settings: &[(&str, &str)]) -> Scene {
     let settings: Vec<_> =
         settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     let (scene, warnings) = read_scene(path, &settings).unwrap_or_else(|error| panic!("{error}"));
-    let warnings: Vec<_> = warnings.iter().map(ToString::to_string).filter(|text| !may_be(text)).collect();
+    let warnings: Vec<_> = warnings.iter().map(ToString::to_string).collect();
     assert!(warnings.is_empty(), "{warnings:?}");
     scene
 }
@@ -110,23 +101,4 @@ scenes! {
     pbrt: a_cornell b_wrap c_uv_quadrics d_checker e_noise f_marble_dots g_bump h_normalmap i_alpha j_thinlens k_softshadow l_materials m_instances
         n_infinite_const n_infinite_image o_lens_dgauss o_lens_wide p_equirect p_ortho q_meshes r_hardlights;
     mitsuba: m_area_lights m_bitmap_wrap_filter m_bumpmap m_cornell_saturated m_dielectric m_mask m_thinlens m_volume_texture;
-}
-
-/// Scenes that are read as pbrt has them.
-mod as_pbrt {
-    macro_rules! scenes {
-        ($($name:ident)+) => {
-            $(
-                #[test]
-                fn $name() {
-                    super::check_pbrt(stringify!($name));
-                }
-            )+
-        };
-    }
-
-    scenes! {
-        a_cornell b_wrap c_uv_quadrics d_checker e_noise f_marble_dots g_bump h_normalmap i_alpha j_thinlens k_softshadow l_materials
-        m_instances n_infinite_const n_infinite_image o_lens_dgauss o_lens_wide p_equirect p_ortho r_hardlights
-    }
 }

@@ -6,7 +6,7 @@ struct Bsdf {
     uint kind;       // MATERIAL_…
     uint mode;       // FRESNEL_…, or DIELECTRIC_…
     vec3 color;      // reflectance, diffuse coefficient or base colour
-    vec3 specular;   // specular coefficient, factor on what a dielectric reflects head-on, or η of a conductor
+    vec3 specular;   // specular coefficient, transmittance, factor on what a dielectric reflects head-on, or η of a conductor
     vec3 k;          // k of a conductor
     float ior;       // index behind the geometric surface over index in front of it
     float exponent;
@@ -16,10 +16,23 @@ struct Bsdf {
     float weight;    // of what the dielectric reflects
     float transmission;
     float coat;
-    vec2 coat_alpha; // both the same
+    vec2 coat_alpha; // both the same; or those of an interface
     vec3 sheen;
     float sheen_roughness;
+    // And of an interface
+    uint through_table; // word of the table of what it lets through
+    uint inner_table;   // word of that of what leaves metal under it
+    float through_mean; // what it lets through, when smooth, of light from everywhere
 };
+
+// Where a channel of both colours of a material together is above 1, both are scaled down, so that no energy is made.
+void bsdf_normalise(inout Bsdf b)
+{
+    float most = max_component(b.color + b.specular);
+    float scale = most > 1.0 ? 1.0 / most : 1.0;
+    b.color *= scale;
+    b.specular *= scale;
+}
 
 struct BsdfSample {
     vec3 wi;         // local
@@ -36,7 +49,12 @@ const float BSDF_SMOOTH = 1e-3;
 
 bool bsdf_is_smooth(Bsdf b) { return max(b.alpha.x, b.alpha.y) < BSDF_SMOOTH; }
 
+// Switch: HAS_COATED_CONDUCTOR.
 bool bsdf_is_specular(Bsdf b)
 {
+#ifdef HAS_COATED_CONDUCTOR
+    // Under a rough interface metal is rough
+    if (b.kind == MATERIAL_COATED_CONDUCTOR) return bsdf_is_smooth(b);
+#endif
     return (b.kind == MATERIAL_CONDUCTOR || b.kind == MATERIAL_DIELECTRIC) && bsdf_is_smooth(b);
 }

@@ -15,14 +15,19 @@ void conductor_index(inout Bsdf b)
 }
 #endif
 
+// k of metal whose η is 1: R = k² / (4 + k²) at normal incidence.
+vec3 conductor_k(vec3 reflectance)
+{
+    vec3 r = clamp(reflectance, 0.0, 0.9999);
+    return 2.0 * sqrt(r) / sqrt(1.0 - r);
+}
+
 vec3 conductor_fresnel(Bsdf b, float cos_i)
 {
     if (b.mode == FRESNEL_NONE) return b.color;
     if (b.mode == FRESNEL_SCHLICK) return fresnel_schlick(cos_i, b.color);
-    // With η = 1, R = k² / (4 + k²) at normal incidence.
-    vec3 r = clamp(b.color, 0.0, 0.9999);
     vec3 eta = vec3(1.0);
-    vec3 k = 2.0 * sqrt(r) / sqrt(1.0 - r);
+    vec3 k = conductor_k(b.color);
 #ifdef HAS_METAL_INDEX
     if (b.mode == FRESNEL_INDEX) {
         eta = b.specular;

@@ -1,15 +1,6 @@
 // Modified Phong: kd / π + ks (n + 2) / 2π · cosⁿ α, α from the mirror direction (Lafortune and Willems 1994).
-// Where a channel of kd + ks is above 1, both are scaled down together, so that no energy is made.
 #include "base/sampling.glsl"
 #include "material/bsdf.glsl"
-
-void phong_normalise(inout Bsdf b)
-{
-    float most = max_component(b.color + b.specular);
-    float scale = most > 1.0 ? 1.0 / most : 1.0;
-    b.color *= scale;
-    b.specular *= scale;
-}
 
 // Share of the diffuse lobe when a lobe is chosen.
 float phong_diffuse_share(Bsdf b)

@@ -1,4 +1,4 @@
-// What denoisers are given beside the colour. Switch of the variant: MOVING_CAMERA.
+// What denoisers are given beside the colour. Switches of the variant: MOVING_CAMERA, HAS_DIFFUSE_TRANSMISSION.
 #include "stages/wave.glsl"
 #include "geometry/surface.glsl"
 #include "material/bsdf.glsl"
@@ -22,6 +22,9 @@ vec3 camera_position()
 void write_aov(uint slot, inout Path path, Surface surface, Bsdf bsdf, vec3 emitted, vec3 facing_normal)
 {
     vec3 albedo = bsdf.kind == MATERIAL_DIELECTRIC ? vec3(1.0) : bsdf.color;
+#ifdef HAS_DIFFUSE_TRANSMISSION
+    if (bsdf.kind == MATERIAL_DIFFUSE_TRANSMISSION) albedo += bsdf.specular;
+#endif
     if (bsdf.kind == MATERIAL_PHONG) albedo += bsdf.specular;
     albedo = clamp(albedo + emitted, 0.0, 1.0);
     float depth = distance(camera_position(), surface.position);

@@ -5,6 +5,11 @@ use glam::{DVec3, Vec3};
 
 /// Where the camera is from the middle of the model: in front, a little from the right and from above.
 const DIRECTION: DVec3 = DVec3::new(0.35, 0.3, 1.0);
+/// Where it is when less than a part of the fronts that it would see is to be seen from there: from behind, from below, from the left.
+const TURNS: [DVec3; 4] =
+    [DVec3::ONE, DVec3::new(1.0, 1.0, -1.0), DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, 1.0)];
+/// That part.
+const ENOUGH: f64 = 0.5;
 /// Field of view of the shorter side of the picture, in degrees.
 const FOV: f32 = 35.0;
 /// How much wider the view is than the model.
@@ -14,7 +19,7 @@ const MARGIN: f64 = 1.08;
 pub(super) fn camera(scene: &Scene, instances: &[Instance]) -> Camera {
     let (low, high) = bounds(scene, instances);
     let middle = 0.5 * (low + high);
-    let back = DIRECTION.normalize();
+    let back = direction(scene, instances);
     let right = DVec3::Y.cross(back).normalize();
     let up = back.cross(right);
     let tan = (0.5 * f64::from(FOV).to_radians()).tan();
@@ -35,6 +40,26 @@ pub(super) fn camera(scene: &Scene, instances: &[Instance]) -> Camera {
         projection: Projection::Perspective(Perspective { fov: FOV, fov_axis: FovAxis::Smaller, lens: None }),
         ..Camera::default()
     }
+}
+
+/// The first direction from which enough of the fronts is seen: a sheet that faces away would show its back, or nothing.
+fn direction(scene: &Scene, instances: &[Instance]) -> DVec3 {
+    let directions = TURNS.map(|turn| (turn * DIRECTION).normalize());
+    let mut seen = [0.0; TURNS.len()];
+    for instance in instances {
+        let mesh = &scene.meshes[instance.mesh];
+        let map = instance.world_from_object.as_daffine3();
+        let side = map.matrix3.determinant().signum();
+        for corners in &mesh.triangles {
+            let [a, b, c] =
+                corners.map(|corner| map.transform_point3(mesh.positions[corner as usize].as_dvec3()));
+            let area = side * (b - a).cross(c - a);
+            seen.iter_mut().zip(&directions).for_each(|(sum, d)| *sum += area.dot(*d).max(0.0));
+        }
+    }
+    let most = seen.iter().copied().fold(0.0, f64::max);
+    let enough = seen.iter().position(|sum| *sum >= ENOUGH * most);
+    enough.map_or(directions[0], |first| directions[first])
 }
 
 /// The box around all vertices in the world; around the origin when there are none.
@@ -89,6 +114,28 @@ mod tests {
             });
             let widest = seen.fold(0.0, f32::max);
             assert!((0.9..0.999).contains(&widest), "{scale}: {widest}");
+        }
+    }
+
+    #[test]
+    fn a_sheet_is_seen_from_its_front() {
+        // Facing +z, −z and −y; and one that a mirror turns over
+        for (corners, mirror, sign) in [
+            ([Vec3::ZERO, Vec3::X, Vec3::Y], 1.0, Vec3::Z),
+            ([Vec3::ZERO, Vec3::Y, Vec3::X], 1.0, -Vec3::Z),
+            ([Vec3::ZERO, Vec3::X, Vec3::Z], 1.0, -Vec3::Y),
+            ([Vec3::ZERO, Vec3::X, Vec3::Y], -1.0, Vec3::Z),
+        ] {
+            let mut scene = Scene::default();
+            let mesh = Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2]], ..Mesh::default() };
+            let mesh = scene.meshes.add("sheet", mesh);
+            let grey = Surface::Diffuse { color: Value::Constant(Vec3::ONE) };
+            let material = scene.materials.add("grey", Material::new(grey, None));
+            let world_from_object = Affine3A::from_scale(Vec3::new(mirror, 1.0, 1.0));
+            let instance =
+                Instance { name: "sheet".into(), mesh, material, world_from_object, at_close: None };
+            let camera = camera(&scene, &[instance]);
+            assert!((camera.position - camera.target).dot(sign) > 0.0, "{corners:?} {mirror}: {camera:?}");
         }
     }
 }

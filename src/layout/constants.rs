@@ -135,19 +135,27 @@ constants! {
     MATERIAL_PRINCIPLED = 5;
     /// Material kind: one of two materials at each event.
     MATERIAL_MIX = 6;
+    /// Material kind: Lambertian on both sides.
+    MATERIAL_DIFFUSE_TRANSMISSION = 7;
+    /// Material kind: a dielectric interface over a Lambertian base.
+    MATERIAL_COATED_DIFFUSE = 8;
+    /// Material kind: a dielectric interface over metal.
+    MATERIAL_COATED_CONDUCTOR = 9;
     /// Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
     MATERIAL_WORDS = 12;
     /// Material flag: it sends light out on both sides.
     MATERIAL_TWO_SIDED = 1;
     /// Material flag: what its roughness inputs give are roughnesses, to be squared.
     MATERIAL_SQUARED = 2;
+    /// Material flag: what its interface inputs give are roughnesses, to be squared.
+    MATERIAL_INTERFACE_SQUARED = 4;
     /// ColorInput of all materials: radiance sent out.
     INPUT_EMISSION = 1;
     /// ColorInput: radiance, reflectance, diffuse coefficient or base colour.
     INPUT_COLOR = 2;
     /// NumberInputs: GGX widths along ∂p/∂u and across it.
     INPUT_ROUGHNESS = 3;
-    /// ColorInput: specular coefficient of Phong, η of a conductor, specular colour.
+    /// ColorInput: specular coefficient of Phong, transmittance, η of a conductor, specular colour.
     INPUT_SPECULAR = 4;
     /// ColorInput: k of a conductor; absorption inside of glass, which takes no texture.
     INPUT_ABSORPTION = 5;
@@ -155,12 +163,18 @@ constants! {
     INPUT_INDEX = 6;
     /// NumberInputs: metallic, transmission.
     INPUT_METALLIC = 7;
-    /// NumberInputs: clearcoat, its roughness.
+    /// NumberInputs: clearcoat, its roughness; GGX widths of an interface over metal.
     INPUT_CLEARCOAT = 8;
     /// ColorInput: sheen.
     INPUT_SHEEN = 9;
     /// NumberInputs: roughness of the sheen.
     INPUT_SHEEN_ROUGHNESS = 10;
+    /// InterfaceInput, where there is no sheen.
+    INPUT_INTERFACE = 10;
+    /// Cells of a table of an interface along the cosine.
+    INTERFACE_COLUMNS = 32;
+    /// Cells of a table of an interface along the width.
+    INTERFACE_ROWS = 16;
     /// MixInput.
     INPUT_MIX = 11;
     /// Detail flag: the bend of the surface itself, times the height, counts in a bump map.

@@ -273,6 +273,19 @@ records! {
         second_texture: u32,
     }
 
+    /// What an interface over an opaque base lets through. A table has INTERFACE_ROWS · INTERFACE_COLUMNS words, one a cell with its
+    /// values at the corners, and then INTERFACE_ROWS with the means at the ends of a row.
+    struct InterfaceInput {
+        /// word of `materials` with the table of what it lets through when rough, or NONE
+        through_table: u32,
+        /// word with the table of what leaves rough metal below it, or NONE
+        inner_table: u32,
+        /// what it lets through when smooth of light from everywhere: 2 ∫ T(μ) μ dμ
+        through_mean: f32,
+        /// room
+        spare: u32,
+    }
+
     /// What a mix is made of.
     struct MixInput {
         /// chance of the second material, or a factor on that of its texture

@@ -1,30 +1,40 @@
 //! Materials to records.
 
+use super::interface::Interfaces;
 use super::textures::References;
 use super::{Features, Prepared};
 use crate::layout::{
     ColorInput, DIELECTRIC_SOLID, DIELECTRIC_THIN, FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE,
     FRESNEL_SCHLICK, INPUT_ABSORPTION, INPUT_CLEARCOAT, INPUT_COLOR, INPUT_EMISSION, INPUT_INDEX,
-    INPUT_METALLIC, INPUT_MIX, INPUT_ROUGHNESS, INPUT_SHEEN, INPUT_SHEEN_ROUGHNESS, INPUT_SPECULAR,
-    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_MIX, MATERIAL_PHONG,
-    MATERIAL_PRINCIPLED, MATERIAL_SQUARED, MATERIAL_TWO_SIDED, MATERIAL_UNLIT, MATERIAL_WORDS, Material,
-    MaterialHead, MixInput, NONE, NumberInputs,
+    INPUT_INTERFACE, INPUT_METALLIC, INPUT_MIX, INPUT_ROUGHNESS, INPUT_SHEEN, INPUT_SHEEN_ROUGHNESS,
+    INPUT_SPECULAR, MATERIAL_COATED_CONDUCTOR, MATERIAL_COATED_DIFFUSE, MATERIAL_CONDUCTOR,
+    MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_INTERFACE_SQUARED,
+    MATERIAL_MIX, MATERIAL_PHONG, MATERIAL_PRINCIPLED, MATERIAL_SQUARED, MATERIAL_TWO_SIDED, MATERIAL_UNLIT,
+    MATERIAL_WORDS, Material, MaterialHead, MixInput, NONE, NumberInputs,
 };
-use crate::scene::{self, Conductor, Dielectric, Fresnel, Mix, Principled, Roughness, Scene, Surface, Value};
+use crate::scene::{
+    self, CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Fresnel, Interface, Mix, Principled,
+    Roughness, Scene, Surface, Value,
+};
 use crate::{Error, Result};
 use glam::Vec3;
 
 /// The number of a material that has none.
 const NO_NUMBER: Value<f32> = Value::Constant(0.0);
+/// Interfaces of an index below it bend nothing, and reflect nothing.
+const LEAST_INDEX: f32 = 1.0001;
 
 /// Fills `materials`, and the features that they switch on.
 pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) -> Result<()> {
+    let words = scene.materials.len() as u32 * MATERIAL_WORDS;
+    let mut interfaces = Interfaces::new(&mut out.interfaces, words);
     for (handle, name, material) in scene.materials.iter() {
         let Some(depth) = scene::Material::mix_depth(&scene.materials, handle) else {
             return Err(Error::scene(scene::Material::endless(name)));
         };
         out.features.mix_depth = out.features.mix_depth.max(depth);
-        let mut builder = Builder { textures, features: &mut out.features, record: empty() };
+        let mut builder =
+            Builder { textures, interfaces: &mut interfaces, features: &mut out.features, record: empty() };
         builder.surface(&material.surface);
         builder.emission(material);
         let record = builder.record;
@@ -41,13 +51,14 @@ fn empty() -> Material {
 }
 
 /// A material in the making.
-struct Builder<'a> {
+struct Builder<'a, 'b> {
     textures: &'a References,
+    interfaces: &'a mut Interfaces<'b>,
     features: &'a mut Features,
     record: Material,
 }
 
-impl Builder<'_> {
+impl Builder<'_, '_> {
     fn surface(&mut self, surface: &Surface) {
         match surface {
             Surface::Unlit { color } => {
@@ -58,6 +69,13 @@ impl Builder<'_> {
                 self.kind(MATERIAL_DIFFUSE);
                 self.color(INPUT_COLOR, color);
             }
+            Surface::DiffuseTransmission { reflectance, transmittance } => {
+                self.kind(MATERIAL_DIFFUSE_TRANSMISSION);
+                // There is no inside
+                self.record.head.mode = DIELECTRIC_THIN;
+                self.color(INPUT_COLOR, reflectance);
+                self.color(INPUT_SPECULAR, transmittance);
+            }
             Surface::Phong { diffuse, specular, exponent } => {
                 self.kind(MATERIAL_PHONG);
                 self.color(INPUT_COLOR, diffuse);
@@ -66,6 +84,8 @@ impl Builder<'_> {
             }
             Surface::Conductor(conductor) => self.conductor(conductor),
             Surface::Dielectric(dielectric) => self.dielectric(dielectric),
+            Surface::CoatedDiffuse(coated) => self.coated_diffuse(coated),
+            Surface::CoatedConductor(coated) => self.coated_conductor(coated),
             Surface::Principled(principled) => self.principled(principled),
             Surface::Mix(mix) => self.mix(mix),
         }
@@ -73,7 +93,7 @@ impl Builder<'_> {
 
     fn conductor(&mut self, conductor: &Conductor) {
         self.kind(MATERIAL_CONDUCTOR);
-        self.roughness(&conductor.roughness);
+        self.roughness(INPUT_ROUGHNESS, MATERIAL_SQUARED, &conductor.roughness);
         if let Fresnel::Index { eta, k } = &conductor.fresnel {
             self.features.metal_index = true;
             self.color(INPUT_SPECULAR, eta);
@@ -89,11 +109,37 @@ impl Builder<'_> {
         };
     }
 
+    fn coated_diffuse(&mut self, coated: &CoatedDiffuse) {
+        self.kind(MATERIAL_COATED_DIFFUSE);
+        self.color(INPUT_COLOR, &coated.color);
+        self.interface(INPUT_ROUGHNESS, MATERIAL_SQUARED, &coated.interface, false);
+    }
+
+    fn coated_conductor(&mut self, coated: &CoatedConductor) {
+        self.conductor(&coated.conductor);
+        self.kind(MATERIAL_COATED_CONDUCTOR);
+        // Its index is relative to the interface, not to air
+        self.features.metal_index |= coated.conductor.fresnel == Fresnel::Exact;
+        // Metal under a rough interface is rough
+        let rough = !(coated.conductor.roughness.is_smooth() && coated.interface.roughness.is_smooth());
+        self.interface(INPUT_CLEARCOAT, MATERIAL_INTERFACE_SQUARED, &coated.interface, rough);
+    }
+
+    fn interface(&mut self, input: u32, squared: u32, interface: &Interface, rough_base: bool) {
+        let ior = interface.ior.max(1.0);
+        let rough = !interface.roughness.is_smooth() && ior >= LEAST_INDEX;
+        let roughness = if rough { interface.roughness } else { Roughness::alpha(0.0) };
+        self.roughness(input, squared, &roughness);
+        self.numbers(INPUT_INDEX, [Value::Constant(ior), NO_NUMBER]);
+        let record = self.interfaces.input(ior, rough, rough_base);
+        self.put(INPUT_INTERFACE, bytemuck::cast(record));
+    }
+
     fn dielectric(&mut self, dielectric: &Dielectric) {
         self.kind(MATERIAL_DIELECTRIC);
         self.record.head.mode = if dielectric.thin { DIELECTRIC_THIN } else { DIELECTRIC_SOLID };
         self.numbers(INPUT_INDEX, [dielectric.ior, NO_NUMBER]);
-        self.roughness(&dielectric.roughness);
+        self.roughness(INPUT_ROUGHNESS, MATERIAL_SQUARED, &dielectric.roughness);
         self.color(INPUT_ABSORPTION, &Value::Constant(dielectric.absorption));
         self.features.medium |= dielectric.absorption != Vec3::ZERO;
     }
@@ -104,7 +150,7 @@ impl Builder<'_> {
         // What no light goes through has two sides that are alike, as a sheet has
         self.record.head.mode = if solid { DIELECTRIC_SOLID } else { DIELECTRIC_THIN };
         self.color(INPUT_COLOR, &principled.base_color);
-        self.roughness(&principled.roughness);
+        self.roughness(INPUT_ROUGHNESS, MATERIAL_SQUARED, &principled.roughness);
         self.numbers(INPUT_METALLIC, [principled.metallic, principled.transmission]);
         self.numbers(INPUT_INDEX, [principled.ior, principled.specular]);
         self.color(INPUT_SPECULAR, &principled.specular_color);
@@ -136,16 +182,16 @@ impl Builder<'_> {
         self.record.head.kind = kind;
     }
 
-    fn roughness(&mut self, roughness: &Roughness) {
+    fn roughness(&mut self, input: u32, flag: u32, roughness: &Roughness) {
         let Roughness { u, v, squared } = *roughness;
         self.features.anisotropic |= u != v;
         match (u, v) {
             (Value::Constant(u), Value::Constant(v)) if squared => {
-                self.numbers(INPUT_ROUGHNESS, [Value::Constant(u * u), Value::Constant(v * v)]);
+                self.numbers(input, [Value::Constant(u * u), Value::Constant(v * v)]);
             }
             _ => {
-                self.numbers(INPUT_ROUGHNESS, [u, v]);
-                self.record.head.flags |= if squared { MATERIAL_SQUARED } else { 0 };
+                self.numbers(input, [u, v]);
+                self.record.head.flags |= if squared { flag } else { 0 };
             }
         }
     }

@@ -11,6 +11,7 @@ mod details;
 mod displace;
 mod environment;
 mod geometry;
+mod interface;
 pub mod lens;
 mod lights;
 mod materials;
@@ -66,6 +67,8 @@ pub struct Prepared {
     pub camera_motion: u32,
     /// Materials, indexed as in the scene.
     pub materials: Vec<Material>,
+    /// Words behind them: tables of interfaces.
+    pub interfaces: Vec<[u32; 4]>,
     /// What they do to the surfaces themselves, indexed alike.
     pub details: Vec<Detail>,
     /// Words of the texture records.
@@ -118,6 +121,7 @@ impl Prepared {
             size_of_val(self.motions.as_slice()),
             size_of_val(self.shapes.as_slice()),
             size_of_val(self.materials.as_slice()),
+            size_of_val(self.interfaces.as_slice()),
             size_of_val(self.details.as_slice()),
             size_of_val(self.textures.as_slice()),
             size_of_val(self.texels.as_slice()),

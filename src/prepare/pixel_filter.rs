@@ -16,7 +16,7 @@ pub(super) fn prepare(filter: &Filter, out: &mut LensTables) -> Result<()> {
     let Some(means) = means(filter) else { return Ok(()) };
     let magnitude: f64 = means.iter().map(|mean| mean.abs()).sum();
     let whole: f64 = means.iter().sum();
-    if !(whole > 1e-3 * magnitude) {
+    if whole <= 1e-3 * magnitude {
         return Err(
             Error::scene("the pixel filter weighs as much below 0 as above").help("change its radius")
         );

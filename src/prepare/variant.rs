@@ -4,8 +4,8 @@ use super::{Features, Prepared};
 use crate::layout::{
     Backend, INPUT_EMISSION, LIGHT_CYLINDER, LIGHT_DISK, LIGHT_DISK_PART, LIGHT_DISTANT, LIGHT_PATCH,
     LIGHT_POINT, LIGHT_PROJECTION, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPHERE_PART, LIGHT_SPOT, LIGHT_TRIANGLE,
-    MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG, MATERIAL_PRINCIPLED,
-    STACK_ENTRIES,
+    MATERIAL_COATED_CONDUCTOR, MATERIAL_COATED_DIFFUSE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC,
+    MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_PHONG, MATERIAL_PRINCIPLED, STACK_ENTRIES,
 };
 use crate::scene::{FilterKind, FisheyeMapping, Focus, Opening, Projection, Sampler, Scene};
 use std::collections::BTreeMap;
@@ -223,9 +223,13 @@ pub fn defines(
     if stage == Stage::Shade {
         let material = |kind: u32| features.material_kinds & 1 << kind != 0;
         flag("HAS_DIFFUSE", material(MATERIAL_DIFFUSE));
+        flag("HAS_DIFFUSE_TRANSMISSION", material(MATERIAL_DIFFUSE_TRANSMISSION));
         flag("HAS_PHONG", material(MATERIAL_PHONG));
         flag("HAS_CONDUCTOR", material(MATERIAL_CONDUCTOR));
         flag("HAS_DIELECTRIC", material(MATERIAL_DIELECTRIC));
+        flag("HAS_COATED_DIFFUSE", material(MATERIAL_COATED_DIFFUSE));
+        flag("HAS_COATED_CONDUCTOR", material(MATERIAL_COATED_CONDUCTOR));
+        flag("HAS_INTERFACE_TABLES", !prepared.interfaces.is_empty());
         flag("HAS_PRINCIPLED", material(MATERIAL_PRINCIPLED));
         flag("HAS_GLASS", material(MATERIAL_DIELECTRIC) || features.transmission);
         flag("HAS_TRANSMISSION", features.transmission);

@@ -32,7 +32,8 @@ impl Resident {
         let motions: &[u8] = bytemuck::cast_slice(&prepared.motions);
         put("instances", &[instances, motions, bytemuck::cast_slice(&prepared.shapes)].concat())?;
         put("vertices", bytemuck::cast_slice(&std::mem::take(&mut prepared.vertices)))?;
-        put("materials", bytemuck::cast_slice(&prepared.materials))?;
+        let materials: &[u8] = bytemuck::cast_slice(&prepared.materials);
+        put("materials", &[materials, bytemuck::cast_slice(&prepared.interfaces)].concat())?;
         put("details", bytemuck::cast_slice(&prepared.details))?;
         put("textures", bytemuck::cast_slice(&prepared.textures))?;
         put("texels", bytemuck::cast_slice(&std::mem::take(&mut prepared.texels)))?;

@@ -43,6 +43,10 @@ impl Roughness {
         Self { u, v, squared: false }
     }
 
+    fn textures(&self) -> [Option<Handle<Texture>>; 2] {
+        [self.u.texture(), self.v.texture()]
+    }
+
     /// Whether it is smooth wherever it is.
     pub fn is_smooth(&self) -> bool {
         [self.u, self.v].iter().all(|width| *width == Value::Constant(0.0))
@@ -60,6 +64,17 @@ pub struct Conductor {
     pub roughness: Roughness,
 }
 
+impl Conductor {
+    fn textures(&self) -> [Option<Handle<Texture>>; 4] {
+        let optics = match self.fresnel {
+            Fresnel::Index { eta, k } => [eta.texture(), k.texture()],
+            _ => [self.reflectance.texture(), None],
+        };
+        let [u, v] = self.roughness.textures();
+        [optics[0], optics[1], u, v]
+    }
+}
+
 /// Clear material: smooth when both widths are 0, else a GGX microfacet surface (Walter et al. 2007).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dielectric {
@@ -72,6 +87,33 @@ pub struct Dielectric {
     pub absorption: Vec3,
     /// An infinitely thin sheet: reflections inside are summed and light is not bent. Smooth only.
     pub thin: bool,
+}
+
+/// A dielectric interface over an opaque base, with nothing in between.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interface {
+    /// Index of refraction of what is below it relative to outside, at least 1.
+    pub ior: f32,
+    /// GGX widths.
+    pub roughness: Roughness,
+}
+
+/// A Lambertian base under an interface, with all light that goes to and fro between them (Saunderson 1942).
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoatedDiffuse {
+    /// Reflectance of the base, in [0, 1].
+    pub color: Value<Vec3>,
+    /// What is over it.
+    pub interface: Interface,
+}
+
+/// Metal under an interface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoatedConductor {
+    /// The metal as it is in air: its index of refraction is that relative to outside, also that of [`Fresnel::Exact`].
+    pub conductor: Conductor,
+    /// What is over it.
+    pub interface: Interface,
 }
 
 /// The model of glTF 2.0 (appendix B) with its extensions ior, specular, transmission, volume, clearcoat and sheen.
@@ -158,6 +200,13 @@ pub enum Surface {
         /// Reflectance, in [0, 1].
         color: Value<Vec3>,
     },
+    /// Lambertian on both sides, scaled down where reflectance + transmittance > 1.
+    DiffuseTransmission {
+        /// Part that goes back to the side from which light comes, in [0, 1].
+        reflectance: Value<Vec3>,
+        /// Part that goes on to the other side, in [0, 1].
+        transmittance: Value<Vec3>,
+    },
     /// Modified Phong: kd/π + ks (n+2)/(2π) cosⁿ, scaled down where kd + ks > 1 (Lafortune and Willems 1994).
     Phong {
         /// Diffuse coefficient.
@@ -171,6 +220,10 @@ pub enum Surface {
     Conductor(Conductor),
     /// Glass, water.
     Dielectric(Dielectric),
+    /// Paint, plastic, lacquered wood.
+    CoatedDiffuse(CoatedDiffuse),
+    /// Lacquered metal.
+    CoatedConductor(Box<CoatedConductor>),
     /// The model of glTF.
     Principled(Box<Principled>),
     /// One of two materials.
@@ -230,18 +283,21 @@ impl Material {
 
     /// The textures that drive the light of it, not its detail.
     pub fn textures(&self) -> impl Iterator<Item = Handle<Texture>> {
-        let widths = |roughness: &Roughness| [roughness.u.texture(), roughness.v.texture()];
+        let widths = Roughness::textures;
         let surface = match &self.surface {
             Surface::Unlit { color } | Surface::Diffuse { color } => vec![color.texture()],
+            Surface::DiffuseTransmission { reflectance, transmittance } => {
+                vec![reflectance.texture(), transmittance.texture()]
+            }
             Surface::Phong { diffuse, specular, exponent } => {
                 vec![diffuse.texture(), specular.texture(), exponent.texture()]
             }
-            Surface::Conductor(Conductor { reflectance, fresnel, roughness }) => {
-                let [first, second] = match fresnel {
-                    Fresnel::Index { eta, k } => [eta.texture(), k.texture()],
-                    _ => [reflectance.texture(), None],
-                };
-                [[first, second], widths(roughness)].concat()
+            Surface::Conductor(conductor) => conductor.textures().to_vec(),
+            Surface::CoatedDiffuse(CoatedDiffuse { color, interface }) => {
+                [&[color.texture()][..], &widths(&interface.roughness)].concat()
+            }
+            Surface::CoatedConductor(coated) => {
+                [&coated.conductor.textures()[..], &widths(&coated.interface.roughness)].concat()
             }
             Surface::Dielectric(Dielectric { ior, roughness, .. }) => {
                 [&[ior.texture()][..], &widths(roughness)].concat()

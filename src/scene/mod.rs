@@ -28,7 +28,10 @@ pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sa
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub(crate) use light::half_frustum;
 pub use light::{DirectionMapping, Environment, Light, LightKind, Strength, facing};
-pub use material::{Conductor, Dielectric, Emission, Fresnel, Material, Mix, Principled, Roughness, Surface};
+pub use material::{
+    CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Emission, Fresnel, Interface, Material, Mix,
+    Principled, Roughness, Surface,
+};
 pub use patch::Patch;
 pub use quadric::{Extent, Quadric};
 pub use store::{Handle, Store};

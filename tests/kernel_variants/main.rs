@@ -5,6 +5,7 @@
 mod common;
 
 mod cameras;
+mod coats;
 mod scenes;
 
 use common::probe::{cache, sources};

@@ -1,12 +1,13 @@
 //! Scenes that together switch every feature on and off.
 
 use crate::cameras::cameras;
+use crate::coats::{rough_coats, smooth_coats};
 use crate::common::patterns::{noise, patterns};
 use crate::common::placed::placed;
 use dapple::scene::*;
 use glam::{Affine3A, Vec3};
 
-fn constant(x: f32) -> Value<Vec3> {
+pub fn constant(x: f32) -> Value<Vec3> {
     Value::Constant(Vec3::splat(x))
 }
 
@@ -20,12 +21,12 @@ fn glass(ior: f32, alpha: [f32; 2], absorption: f32) -> Surface {
     Surface::Dielectric(Dielectric { ior, roughness, absorption: Vec3::splat(absorption), thin: false })
 }
 
-fn material(scene: &mut Scene, surface: Surface, light: Option<Value<Vec3>>) -> Handle<Material> {
+pub fn material(scene: &mut Scene, surface: Surface, light: Option<Value<Vec3>>) -> Handle<Material> {
     let emission = light.map(|radiance| Emission { radiance, two_sided: false });
     scene.materials.add("material", Material::new(surface, emission))
 }
 
-fn place_triangle(scene: &mut Scene, material: Handle<Material>, copies: u32) {
+pub fn place_triangle(scene: &mut Scene, material: Handle<Material>, copies: u32) {
     let triangle = Mesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
         triangles: vec![[0, 1, 2]],
@@ -83,11 +84,11 @@ fn curved() -> Scene {
     scene
 }
 
-fn surroundings(radiance: Value<Vec3>) -> Option<Environment> {
+pub fn surroundings(radiance: Value<Vec3>) -> Option<Environment> {
     Some(Environment { scale: 2.0, ..Environment::new(radiance) })
 }
 
-fn texture(scene: &mut Scene, texels: Texels, color_space: ColorSpace) -> Handle<Texture> {
+pub fn texture(scene: &mut Scene, texels: Texels, color_space: ColorSpace) -> Handle<Texture> {
     let image = scene.images.add("image", Image { width: 2, height: 1, texels });
     let texture = ImageTexture {
         image,
@@ -375,6 +376,8 @@ pub fn scenes() -> Vec<(&'static str, Scene)> {
         ("tubes, parts and patches that shine", curved()),
         ("glass, metal, Phong, a constant environment behind a transparent film", lobes()),
         ("textures everywhere", textured()),
+        ("smooth coats", smooth_coats()),
+        ("rough coats with textures, and paper", rough_coats()),
         ("a principled material", bare()),
         ("principled materials and mixes", layers()),
         ("every kind of texture", trees()),

@@ -66,6 +66,30 @@ fn in_the_sky(make: impl FnOnce(&mut Scene) -> Surface) -> [f64; 3] {
 }
 
 #[test]
+fn paper_scatters_to_both_sides() {
+    let paper = |s: &mut Scene| {
+        let transmittance = Value::Texture(paper(s, 0.6));
+        Surface::DiffuseTransmission { reflectance: grey(0.3), transmittance }
+    };
+    // In a sky of 1, all that is scattered is seen, and where it would be more than all, all
+    assert!((in_the_sky(paper)[0] - 0.9).abs() < 3e-3);
+    let whiter =
+        in_the_sky(|_| Surface::DiffuseTransmission { reflectance: grey(0.9), transmittance: grey(0.9) });
+    assert!((whiter[0] - 1.0).abs() < 3e-3, "{whiter:?}");
+    // A lamp behind it: T E / π, and before it: R E / π
+    for (height, part) in [(-2.0, 0.6), (2.0, 0.3)] {
+        let mut s = floor_scene(white(), 16);
+        let surface = paper(&mut s);
+        let floor = s.shapes[0].material;
+        s.materials[floor].surface = surface;
+        s.lights.push(point(Vec3::new(1.0, height, 0.0), 40.0));
+        let irradiance = 40.0 * 2.0 / 5.0_f64.powf(1.5);
+        // The pixels see a small piece of the floor
+        expect_grey(mean(&render(&s)), part * irradiance / PI, 1e-3);
+    }
+}
+
+#[test]
 fn an_index_from_textures_is_that_index() {
     // Mirrors and clear glass: what is seen does not depend on chance where one number decides
     let (eta, k) = (0.2_f32, 3.9_f32);

@@ -4,7 +4,10 @@ use crate::common::chi2;
 use crate::common::directions::{CELLS_PHI, CELLS_Z, cell_integrals, cell_of, midpoints};
 use crate::common::probe::{Probe, Word, as_doubles, floats, three, vector};
 use crate::common::random::Random;
-use dapple::layout::{Backend, DIELECTRIC_SOLID, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_PHONG};
+use dapple::layout::{
+    Backend, DIELECTRIC_SOLID, InterfaceInput, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE,
+    MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_PHONG,
+};
 
 /// A BSDF that is tested.
 #[derive(Clone, Copy, Default)]
@@ -24,12 +27,28 @@ pub struct Lobe {
     pub coat: [f32; 2],
     pub sheen: [f32; 3],
     pub sheen_roughness: f32,
+    pub interface: Tables,
+}
+
+/// What an interface lets through: its record, and the words of its tables.
+#[derive(Clone, Copy, Default)]
+pub struct Tables {
+    pub record: InterfaceInput,
+    pub words: &'static [Word],
+}
+
+impl Tables {
+    /// Of what has no interface.
+    pub const NONE: Self = Self {
+        record: InterfaceInput { through_table: 0, inner_table: 0, through_mean: 0.0, spare: 0 },
+        words: &[],
+    };
 }
 
 impl Lobe {
     /// Whether light can go through.
     pub fn is_clear(&self) -> bool {
-        self.kind == MATERIAL_DIELECTRIC || self.transmission > 0.0
+        matches!(self.kind, MATERIAL_DIELECTRIC | MATERIAL_DIFFUSE_TRANSMISSION) || self.transmission > 0.0
     }
 
     fn header(&self, wo: [f32; 3]) -> Vec<Word> {
@@ -43,31 +62,47 @@ impl Lobe {
             floats(self.coat[0], self.coat[1], self.sheen_roughness, 0.0),
             vector(self.sheen),
             vector(wo),
+            bytemuck::cast(self.interface.record),
         ]
+    }
+
+    /// The header and what is behind it: points, then the tables.
+    fn inputs(&self, wo: [f32; 3], points: impl Iterator<Item = Word>) -> (Vec<Word>, String) {
+        let mut inputs = self.header(wo);
+        inputs.extend(points);
+        let glsl = format!("#define TABLES {}u\n{BSDF}", inputs.len());
+        inputs.extend(self.interface.words);
+        (inputs, glsl)
     }
 }
 
-const HEADER: usize = 9;
+const HEADER: usize = 10;
 
 const BSDF: &str = "
+    #define fetch_materials(i) fetch_points(TABLES + (i))
     #define HAS_DIFFUSE
+    #define HAS_DIFFUSE_TRANSMISSION
     #define HAS_PHONG
     #define HAS_CONDUCTOR
     #define HAS_METAL_INDEX
     #define HAS_DIELECTRIC
+    #define HAS_COATED_DIFFUSE
+    #define HAS_COATED_CONDUCTOR
+    #define HAS_INTERFACE_TABLES
     #define HAS_PRINCIPLED
     #define HAS_TRANSMISSION
     #define HAS_CLEARCOAT
     #define HAS_SHEEN
     #include \"material/material.glsl\"
-    const uint HEADER = 9u;
+    const uint HEADER = 10u;
     vec3 vector(uint at) { return uintBitsToFloat(fetch_points(at).xyz); }
     Bsdf probe_bsdf() {
         uvec4 a = fetch_points(0u);
         vec3 mixed = vector(5u);
         vec3 coat = vector(6u);
+        InterfaceInput of = interface_input_unpack(fetch_points(9u));
         return Bsdf(a.x, a.y, vector(1u), vector(2u), vector(3u), uintBitsToFloat(a.z), uintBitsToFloat(a.w), vector(4u).xy,
-                    mixed.x, mixed.y, mixed.z, coat.x, coat.yy, vector(7u), coat.z);
+                    mixed.x, mixed.y, mixed.z, coat.x, coat.yy, vector(7u), coat.z, of.through_table, of.inner_table, of.through_mean);
     }
 ";
 
@@ -84,8 +119,11 @@ pub struct Sample {
 }
 
 pub fn samples(lobe: &Lobe, wo: [f32; 3], count: usize, seed: u64) -> Vec<Sample> {
+    let mut random = Random(seed);
+    let points = (0..count).map(|_| floats(random.f32(), random.f32(), random.f32(), 0.0));
+    let (inputs, bsdf) = lobe.inputs(wo, points);
     let glsl = format!(
-        "{BSDF} void probe(uint i) {{
+        "{bsdf} void probe(uint i) {{
             Bsdf b = probe_bsdf();
             vec3 wo = vector(8u);
             vec3 u = vector(HEADER + i);
@@ -95,9 +133,6 @@ pub fn samples(lobe: &Lobe, wo: [f32; 3], count: usize, seed: u64) -> Vec<Sample
             store_values(3u * i + 2u, floatBitsToUint(vec4(bsdf_eval(b, wo, s.wi), bsdf_pdf(b, wo, s.wi))));
         }}"
     );
-    let mut random = Random(seed);
-    let mut inputs = lobe.header(wo);
-    inputs.extend((0..count).map(|_| floats(random.f32(), random.f32(), random.f32(), 0.0)));
     let values = Probe::new().both(&glsl, &inputs, count, 3 * count);
     let sample = |(v, u): (&[Word], &Word)| {
         let [a, b, c] = [v[0], v[1], v[2]].map(as_doubles);
@@ -118,8 +153,11 @@ pub fn samples(lobe: &Lobe, wo: [f32; 3], count: usize, seed: u64) -> Vec<Sample
 
 /// Density, value, and value with the directions exchanged, at every midpoint.
 pub fn over_the_sphere(lobe: &Lobe, wo: [f32; 3]) -> Vec<(f64, [f64; 3], [f64; 3])> {
+    let points = midpoints();
+    let count = points.len();
+    let (inputs, bsdf) = lobe.inputs(wo, points.iter().map(|m| floats(m[0], m[1], m[2], 0.0)));
     let glsl = format!(
-        "{BSDF} void probe(uint i) {{
+        "{bsdf} void probe(uint i) {{
             Bsdf b = probe_bsdf();
             vec3 wo = vector(8u);
             vec3 wi = vector(HEADER + i);
@@ -127,9 +165,6 @@ pub fn over_the_sphere(lobe: &Lobe, wo: [f32; 3]) -> Vec<(f64, [f64; 3], [f64; 3
             store_values(2u * i + 1u, floatBitsToUint(vec4(bsdf_eval(b, wi, wo), 0.0)));
         }}"
     );
-    let mut inputs = lobe.header(wo);
-    inputs.extend(midpoints().iter().map(|m| floats(m[0], m[1], m[2], 0.0)));
-    let count = inputs.len() - HEADER;
     let values = Probe::new().both(&glsl, &inputs, count, 2 * count);
     let row = |v: &[Word]| (as_doubles(v[0])[3], three(as_doubles(v[0])), three(as_doubles(v[1])));
     values.chunks_exact(2).map(row).collect()
@@ -139,8 +174,9 @@ pub fn over_the_sphere(lobe: &Lobe, wo: [f32; 3]) -> Vec<(f64, [f64; 3], [f64; 3
 /// is counted without the 1 / η² that its radiance is scaled by.
 pub fn albedo(lobe: &Lobe, wo: [f32; 3]) -> f64 {
     const ROWS: usize = 512;
+    let (inputs, bsdf) = lobe.inputs(wo, std::iter::empty());
     let glsl = format!(
-        "{BSDF} void probe(uint i) {{
+        "{bsdf} void probe(uint i) {{
             Bsdf b = probe_bsdf();
             vec3 wo = vector(8u);
             float z = (float(i) + 0.5) / 256.0 - 1.0;
@@ -153,7 +189,7 @@ pub fn albedo(lobe: &Lobe, wo: [f32; 3]) -> f64 {
             store_values(i, floatBitsToUint(vec4(sum * abs(z) * scale * 4.0 * PI / (512.0 * 192.0), 0.0, 0.0, 0.0)));
         }}"
     );
-    let rows = Probe::new().run(&glsl, Backend::Storage, &lobe.header(wo), ROWS, ROWS);
+    let rows = Probe::new().run(&glsl, Backend::Storage, &inputs, ROWS, ROWS);
     rows.into_iter().map(|row| as_doubles(row)[0]).sum()
 }
 

@@ -7,6 +7,7 @@ mod base;
 mod bilinear;
 mod camera;
 mod choice;
+mod coated;
 mod cone;
 mod curved_light;
 mod curved_surface;

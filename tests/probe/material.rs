@@ -5,8 +5,8 @@ use crate::common::twins::fresnel;
 use crate::common::twins::math::{cross, dot, normalize};
 use crate::common::twins::sampling::{DISK_ERROR, disk_inverse, turn, turns_apart};
 use dapple::layout::{
-    FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE, FRESNEL_SCHLICK, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC,
-    MATERIAL_DIFFUSE, MATERIAL_PHONG,
+    DIELECTRIC_THIN, FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE, FRESNEL_SCHLICK, MATERIAL_CONDUCTOR,
+    MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_PHONG,
 };
 
 fn lobes() -> Vec<Lobe> {
@@ -15,7 +15,10 @@ fn lobes() -> Vec<Lobe> {
         Lobe { kind: MATERIAL_PHONG, color: [0.3, 0.5, 0.2], specular: [0.7, 0.5, 0.4], ..Lobe::default() };
     let metal = Lobe { kind: MATERIAL_CONDUCTOR, mode: FRESNEL_NONE, color: white, ..Lobe::default() };
     let glass = Lobe { kind: MATERIAL_DIELECTRIC, ior: 1.5, ..Lobe::default() };
+    let paper = Lobe { kind: MATERIAL_DIFFUSE_TRANSMISSION, mode: DIELECTRIC_THIN, ..Lobe::default() };
     vec![
+        Lobe { name: "paper", color: [0.2, 0.5, 0.1], specular: [0.6, 0.3, 0.9], ..paper },
+        Lobe { name: "paper that only lets through", specular: white, ..paper },
         Lobe { name: "diffuse", kind: MATERIAL_DIFFUSE, color: [0.2, 0.5, 1.0], ..Lobe::default() },
         Lobe { name: "phong 0", exponent: 0.0, ..phong },
         Lobe { name: "phong 1", exponent: 1.0, ..phong },

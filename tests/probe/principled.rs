@@ -1,6 +1,6 @@
 //! `shaders/material/principled.glsl`: what every lobe must do, and the materials that the model must be at its ends.
 
-use super::lobe::{Lobe, albedo, check_reciprocity, check_samples, directions, over_the_sphere};
+use super::lobe::{Lobe, Tables, albedo, check_reciprocity, check_samples, directions, over_the_sphere};
 use crate::common::directions::midpoints;
 use dapple::layout::{
     DIELECTRIC_SOLID, DIELECTRIC_THIN, FRESNEL_SCHLICK, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC,
@@ -24,6 +24,7 @@ const PLAIN: Lobe = Lobe {
     coat: [0.0, 0.1],
     sheen: [0.0; 3],
     sheen_roughness: 0.5,
+    interface: Tables::NONE,
 };
 
 fn lobes() -> Vec<Lobe> {

@@ -2,10 +2,11 @@
 
 use super::place::Spot;
 use super::reader::Reader;
+use super::shape::Looks;
 use super::unsupported::Unsupported;
 use crate::Result;
 use crate::import::text::{shown, suggest};
-use crate::scene::{Detail, Emission, Handle, Material, Opacity, Surface, Value};
+use crate::scene::{Detail, Emission, Handle, Material, Opacity, Surface, Tangents, Value};
 use glam::Vec3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -30,32 +31,36 @@ pub(super) struct Named {
     pub spot: Spot,
 }
 
-/// A material with the light and the opacity of a shape. It is made in the end, when all materials are known.
+/// A material with what a shape adds to it. It is made in the end, when all materials are known.
 #[derive(Debug)]
 struct Dress {
     handle: Handle<Material>,
     base: Handle<Material>,
     emission: Option<Emission>,
     alpha: Option<Value<f32>>,
+    tangents: bool,
     spot: Spot,
 }
 
 /// What tells dresses apart: the bits of all numbers.
-type Key = (Handle<Material>, Option<([u32; 3], bool)>, Option<[u32; 2]>);
+type Key = (Handle<Material>, Option<([u32; 4], bool)>, Option<[u32; 2]>, bool);
 
-fn key(base: Handle<Material>, emission: Option<&Emission>, alpha: Option<Value<f32>>) -> Option<Key> {
-    let emission = match emission {
-        None => None,
-        Some(Emission { radiance: Value::Constant(color), two_sided }) => {
-            Some((color.to_array().map(f32::to_bits), *two_sided))
-        }
-        Some(_) => return None,
-    };
-    let alpha = alpha.map(|alpha| match alpha {
+fn key(base: Handle<Material>, emission: Option<&Emission>, looks: &Looks) -> Key {
+    let emission = emission.map(|emission| {
+        let bits = match emission.radiance {
+            Value::Constant(color) => {
+                let [r, g, b] = color.to_array().map(f32::to_bits);
+                [0, r, g, b]
+            }
+            Value::Texture(handle) => [1, handle.index() as u32, 0, 0],
+        };
+        (bits, emission.two_sided)
+    });
+    let alpha = looks.alpha.map(|alpha| match alpha {
         Value::Constant(number) => [0, number.to_bits()],
         Value::Texture(handle) => [1, handle.index() as u32],
     });
-    Some((base, emission, alpha))
+    (base, emission, alpha, looks.tangents)
 }
 
 /// A diffuse material.
@@ -75,12 +80,7 @@ impl Reader<'_> {
     }
 
     /// The material of the next shape, with what the shape adds to it.
-    pub(super) fn worn(
-        &mut self,
-        emission: Option<Emission>,
-        alpha: Option<Value<f32>>,
-        spot: &Spot,
-    ) -> Handle<Material> {
+    pub(super) fn worn(&mut self, emission: Option<Emission>, looks: &Looks) -> Handle<Material> {
         let base = match self.state.material {
             Some(handle) => handle,
             None => {
@@ -88,19 +88,19 @@ impl Reader<'_> {
                 *self.wardrobe.usual.get_or_insert_with(|| materials.add("usual", diffuse(0.5)))
             }
         };
-        if emission.is_none() && alpha.is_none() {
+        let Looks { alpha, tangents, spot } = looks;
+        if emission.is_none() && alpha.is_none() && !tangents {
             return base;
         }
-        let key = key(base, emission.as_ref(), alpha);
-        if let Some(&known) = key.and_then(|key| self.wardrobe.worn.get(&key)) {
+        let key = key(base, emission.as_ref(), looks);
+        if let Some(&known) = self.wardrobe.worn.get(&key) {
             return known;
         }
         let name = format!("{} at {}", shown(self.scene.materials.name(base)), spot.place());
         let handle = self.scene.materials.add(name, diffuse(0.5));
-        if let Some(key) = key {
-            self.wardrobe.worn.insert(key, handle);
-        }
-        self.wardrobe.dresses.push(Dress { handle, base, emission, alpha, spot: spot.clone() });
+        self.wardrobe.worn.insert(key, handle);
+        let dress = Dress { handle, base, emission, alpha: *alpha, tangents: *tangents, spot: spot.clone() };
+        self.wardrobe.dresses.push(dress);
         handle
     }
 
@@ -126,6 +126,9 @@ impl Reader<'_> {
             material.emission = dress.emission;
             if let Some(value) = dress.alpha.filter(|_| !interface) {
                 material.detail.opacity = Opacity { value, ..Opacity::default() };
+            }
+            if let Some(map) = material.detail.normal_map.as_mut().filter(|_| dress.tangents) {
+                map.tangents = Tangents::MikkTSpace;
             }
             self.scene.materials[dress.handle] = material;
         }

@@ -12,8 +12,8 @@ use super::unsupported::Unsupported;
 use crate::Result;
 use crate::import::text::{Limits, shown};
 use crate::scene::{
-    Bump, Conductor, Derivative, Detail, Dielectric, Fresnel, Handle, Material, Mix, NormalMap, Principled,
-    Roughness, Surface, Tangents, Texture, Value,
+    Bump, CoatedConductor, CoatedDiffuse, Conductor, Derivative, Detail, Dielectric, Fresnel, Handle,
+    Interface, Material, Mix, NormalMap, Roughness, Surface, Tangents, Texture, Value,
 };
 use glam::Vec3;
 
@@ -80,16 +80,17 @@ impl Reader<'_> {
         let surface = match kind {
             "diffuse" => Surface::Diffuse { color: self.albedo(from, "reflectance", 0.5)? },
             "conductor" => {
-                self.conductor(from, ["eta", "k", "reflectance"], ["uroughness", "vroughness", "roughness"])?
+                let widths = ["uroughness", "vroughness", "roughness"];
+                Surface::Conductor(self.conductor(from, ["eta", "k", "reflectance"], widths)?)
             }
             "dielectric" => Surface::Dielectric(Dielectric {
-                ior: self.index(from, "eta")?,
+                ior: Value::Constant(self.index(from, "eta")?),
                 roughness: self.roughness(from, ["uroughness", "vroughness", "roughness"], 0.0)?,
                 absorption: Vec3::ZERO,
                 thin: false,
             }),
             "thindielectric" => Surface::Dielectric(Dielectric {
-                ior: self.index(from, "eta")?,
+                ior: Value::Constant(self.index(from, "eta")?),
                 roughness: Roughness::alpha(0.0),
                 absorption: Vec3::ZERO,
                 thin: true,
@@ -99,10 +100,10 @@ impl Reader<'_> {
             "coateddiffuse" => self.coated_diffuse(from)?,
             "coatedconductor" => self.coated_conductor(from)?,
             "diffusetransmission" => {
-                self.unsupported(Unsupported::DiffuseTransmission, &from.spot);
-                self.albedo(from, "transmittance", 0.25)?;
-                from.float_or("scale", 1.0, Limits::AtLeast(0.0))?;
-                Surface::Diffuse { color: self.albedo(from, "reflectance", 0.25)? }
+                let scale = from.float_or("scale", 1.0, Limits::AtLeast(0.0))?;
+                let [reflectance, transmittance] = ["reflectance", "transmittance"]
+                    .map(|name| self.albedo(from, name, 0.25).map(|albedo| self.scaled(albedo, scale)));
+                Surface::DiffuseTransmission { reflectance: reflectance?, transmittance: transmittance? }
             }
             "hair" | "measured" | "subsurface" => return Ok(self.replaced(kind, from)),
             _ => return Err(self.unknown("Material", kind, from, &KINDS)),
@@ -153,14 +154,25 @@ impl Reader<'_> {
         })
     }
 
+    fn scaled(&mut self, albedo: Value<Vec3>, scale: f32) -> Value<Vec3> {
+        match albedo {
+            Value::Constant(color) => Value::Constant((color * scale).min(Vec3::ONE)),
+            texture if scale == 1.0 => texture,
+            value => {
+                let factor = Value::Constant(scale);
+                Value::Texture(self.part(Texture::Scale { value, factor }))
+            }
+        }
+    }
+
     /// An index of refraction: a number, or a spectrum, of which green counts.
-    fn index(&mut self, from: &Parameters, name: &'static str) -> Result<Value<f32>> {
+    fn index(&mut self, from: &Parameters, name: &'static str) -> Result<f32> {
         let index = match from.float(name, Limits::Above(0.0))? {
             Some(index) => index,
             None => self.rgb_or(from, name, Role::Unbounded, Vec3::splat(USUAL_INDEX))?.y,
         };
         // pbrt takes 0 for 1
-        Ok(Value::Constant(if index == 0.0 { 1.0 } else { index }))
+        Ok(if index == 0.0 { 1.0 } else { index })
     }
 
     /// Widths of microfacets: along u, across it, and what both are where they are not there.
@@ -197,7 +209,7 @@ impl Reader<'_> {
         from: &Parameters,
         optics: [&'static str; 3],
         widths: [&'static str; 3],
-    ) -> Result<Surface> {
+    ) -> Result<Conductor> {
         let roughness = self.roughness(from, widths, 0.0)?;
         let reflectance = self.spectrum_texture(from, optics[2], Role::Albedo)?;
         if let Some(reflectance) = reflectance {
@@ -205,11 +217,11 @@ impl Reader<'_> {
                 let message = format!("{} has both `reflectance` and `eta` or `k`", from.what);
                 return Err(from.error(message).help("keep one of them"));
             }
-            return Ok(Surface::Conductor(Conductor { reflectance, fresnel: Fresnel::Exact, roughness }));
+            return Ok(Conductor { reflectance, fresnel: Fresnel::Exact, roughness });
         }
         let [eta, k] = self.complex_index(from, optics[0], optics[1])?;
         let reflectance = Value::Constant(Vec3::ONE);
-        Ok(Surface::Conductor(Conductor { reflectance, fresnel: Fresnel::Index { eta, k }, roughness }))
+        Ok(Conductor { reflectance, fresnel: Fresnel::Index { eta, k }, roughness })
     }
 
     /// η and k, copper where they are not there.
@@ -248,33 +260,41 @@ impl Reader<'_> {
         Ok(Surface::Mix(Mix { a, b, amount }))
     }
 
-    /// Layers over a diffuse base: a smooth or rough coat without the light that goes to and fro below it.
     fn coated_diffuse(&mut self, from: &Parameters) -> Result<Surface> {
-        self.unsupported(Unsupported::CoatedDiffuse, &from.spot);
         self.between_layers(from)?;
-        Ok(Surface::Principled(Box::new(Principled {
-            base_color: self.albedo(from, "reflectance", 0.5)?,
-            roughness: self.roughness(from, ["uroughness", "vroughness", "roughness"], 0.0)?,
-            ior: self.index(from, "eta")?,
-            ..Principled::default()
-        })))
+        Ok(Surface::CoatedDiffuse(CoatedDiffuse {
+            color: self.albedo(from, "reflectance", 0.5)?,
+            interface: self.interface(from, "eta", ["uroughness", "vroughness", "roughness"])?,
+        }))
     }
 
     fn coated_conductor(&mut self, from: &Parameters) -> Result<Surface> {
-        self.unsupported(Unsupported::CoatedConductor, &from.spot);
         self.between_layers(from)?;
         let coat = ["interface.uroughness", "interface.vroughness", "interface.roughness"];
-        self.roughness(from, coat, 0.0)?;
-        self.index(from, "interface.eta")?;
+        let interface = self.interface(from, "interface.eta", coat)?;
         let base = ["conductor.uroughness", "conductor.vroughness", "conductor.roughness"];
-        self.conductor(from, ["conductor.eta", "conductor.k", "reflectance"], base)
+        let conductor = self.conductor(from, ["conductor.eta", "conductor.k", "reflectance"], base)?;
+        Ok(Surface::CoatedConductor(Box::new(CoatedConductor { conductor, interface })))
+    }
+
+    /// What is over a coated material. What would bend light the other way bends nothing.
+    fn interface(
+        &mut self,
+        from: &Parameters,
+        index: &'static str,
+        widths: [&'static str; 3],
+    ) -> Result<Interface> {
+        let ior = self.index(from, index)?.max(1.0);
+        Ok(Interface { ior, roughness: self.roughness(from, widths, 0.0)? })
     }
 
     /// What is between two layers, and how light there is followed.
     fn between_layers(&mut self, from: &Parameters) -> Result<()> {
         self.float_texture(from, "thickness", Limits::AtLeast(0.0))?;
         self.float_texture(from, "g", Limits::From(-1.0, 1.0))?;
-        self.albedo(from, "albedo", 0.0)?;
+        if self.albedo(from, "albedo", 0.0)? != Value::Constant(Vec3::ZERO) {
+            self.unsupported(Unsupported::LayerMedium, &from.spot);
+        }
         from.integer("maxdepth", 1, 1000)?;
         from.integer("nsamples", 1, 1000)?;
         from.bool_or("twosided", true)?;

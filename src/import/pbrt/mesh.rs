@@ -22,12 +22,20 @@ impl Reader<'_> {
     pub(super) fn triangle_mesh(&mut self, from: &Parameters, looks: &Looks) -> Result<()> {
         let mut mesh = vertices(from)?;
         mesh.triangles = corners(from, mesh.positions.len())?;
-        if from.vec3s("S", Type::Vector3).is_some() {
-            self.unsupported(Unsupported::TangentVectors, &looks.spot);
+        let tangents = from.vec3s("S", Type::Vector3);
+        if let Some((parameter, list)) = &tangents {
+            same_count(from, parameter, list.len(), mesh.positions.len())?;
+            // Those without a length take some direction
+            let unit = |s: &Vec3| s.as_dvec3().normalize_or(glam::DVec3::X).as_vec3();
+            mesh.tangents = list.iter().map(|s| unit(s).extend(1.0)).collect();
+            if mesh.uvs.is_empty() {
+                mesh = with_uvs(&mesh);
+            }
         }
         from.ignore(&["faceIndices"]);
         let mesh = oriented(mesh, self.state.reverse);
-        self.add_mesh("trianglemesh", mesh, looks)
+        let looks = Looks { tangents: tangents.is_some(), alpha: looks.alpha, spot: looks.spot.clone() };
+        self.add_mesh("trianglemesh", mesh, &looks)
     }
 
     pub(super) fn ply_mesh(&mut self, from: &Parameters, looks: &Looks) -> Result<()> {
@@ -86,12 +94,17 @@ impl Reader<'_> {
     }
 
     pub(super) fn loop_subdivision(&mut self, from: &Parameters, looks: &Looks) -> Result<()> {
-        from.integer_or("levels", 3, 0, 20)?;
+        let levels = from.integer_or("levels", 3, 0, 20)?;
         from.choice_or("scheme", (), &[("loop", ())])?;
-        self.unsupported(Unsupported::LoopSubdivision, &looks.spot);
         let (_, positions) = positions(from)?;
         let triangles = corners(from, positions.len())?;
-        let mesh = oriented(Mesh { positions, triangles, ..Mesh::default() }, self.state.reverse);
+        let cage = Mesh { positions, triangles, ..Mesh::default() };
+        let mut mesh = cage.loop_subdivided(levels).map_err(|error| looks.spot.locate(error))?;
+        self.made(mesh.triangles.len(), &looks.spot)?;
+        // pbrt goes clockwise around each vertex, so that the normals of its surfaces point away from where corners go round
+        // counter-clockwise
+        mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
+        let mesh = oriented(mesh, self.state.reverse);
         self.add_mesh("loopsubdiv", mesh, looks)
     }
 
@@ -206,6 +219,7 @@ fn with_uvs(mesh: &Mesh) -> Mesh {
     Mesh {
         positions: corners().map(|i| mesh.positions[i]).collect(),
         normals: corners().filter_map(|i| mesh.normals.get(i).copied()).collect(),
+        tangents: corners().filter_map(|i| mesh.tangents.get(i).copied()).collect(),
         uvs: [Vec2::ZERO, Vec2::X, Vec2::ONE].repeat(count as usize),
         triangles: (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
         ..Mesh::default()

@@ -12,6 +12,7 @@ mod dress;
 mod film;
 mod lexer;
 mod light;
+mod light_image;
 mod mapping;
 mod material;
 mod mesh;

@@ -1,18 +1,21 @@
 //! Bilinear patches.
 
+use super::object::Geometry;
 use super::parameters::Parameters;
 use super::quadric::grid;
 use super::reader::Reader;
 use super::shape::Looks;
 use super::unsupported::Unsupported;
 use crate::Result;
-use crate::scene::Mesh;
-use glam::{Vec2, Vec3};
-use std::ops::{Add, Mul};
+use crate::scene::{Mesh, Patch, ShapeKind};
+use glam::{DAffine3, Vec2, Vec3};
+use std::ops::{Add, Mul, Sub};
 
-/// Most cells along a side of a patch that is no parallelogram.
+/// Most patches of a mesh that are shapes of their own; where there are more, they are cut into triangles, unless they are lamps.
+const MOST_PATCHES: usize = 1 << 16;
+/// Most cells along a side of a patch that is cut.
 const MOST_CELLS: u32 = 16;
-/// Triangles of all patches of a mesh.
+/// Triangles of all patches of a mesh that are cut.
 const MOST_TRIANGLES: u32 = 1 << 21;
 /// How far a corner may be from where a parallelogram has it, in parts of the sides.
 const TOLERANCE: f32 = 1e-5;
@@ -24,34 +27,88 @@ fn bilinear<T: Copy + Add<Output = T> + Mul<f32, Output = T>>([a, b, c, d]: [T; 
 
 impl Reader<'_> {
     pub(super) fn bilinear_mesh(&mut self, from: &Parameters, looks: &Looks) -> Result<()> {
-        let flat = super::mesh::vertices(from)?;
-        let patches = match super::mesh::indices::<4>(from, flat.positions.len())? {
-            Some(patches) => patches,
-            None if flat.positions.len() == 4 => vec![[0, 1, 2, 3]],
+        let corners = super::mesh::vertices(from)?;
+        let indices = match super::mesh::indices::<4>(from, corners.positions.len())? {
+            Some(indices) => indices,
+            None if corners.positions.len() == 4 => vec![[0, 1, 2, 3]],
             None => return Err(from.missing("indices", super::parameter::Type::Integer)),
         };
+        // Where pbrt looks for light on a patch; it changes no brightness
         if let Some((spot, path)) = from.file("emissionfilename")? {
             self.need_file(&spot, &path)?;
-            self.unsupported(Unsupported::EmissionImage, &looks.spot);
         }
         from.ignore(&["faceIndices"]);
-        let curved: Vec<bool> = patches.iter().map(|patch| !is_parallelogram(&flat, patch)).collect();
-        let count = curved.iter().filter(|curved| **curved).count();
-        if count > 0 {
-            self.unsupported(Unsupported::BilinearPatch, &looks.spot);
+        let patches =
+            indices.iter().map(|at| patch(&corners, at, self.state.reverse)).filter(Patch::has_area);
+        let (flat, curved): (Vec<_>, Vec<_>) =
+            if self.shines() { (Vec::new(), patches.collect()) } else { patches.partition(is_parallelogram) };
+        if flat.is_empty() && curved.is_empty() {
+            let message = "the bilinearmesh has no patches with an area";
+            return Err(looks.spot.error(message).help("move their corners apart"));
         }
-        let cells = cells(count);
+        let cut = curved.len() > MOST_PATCHES && !self.shines();
         let mut mesh = Mesh::default();
-        for (patch, curved) in patches.iter().zip(&curved) {
-            append(&mut mesh, cut(&flat, patch, if *curved { cells } else { 1 }));
+        flat.iter().for_each(|patch| append(&mut mesh, in_cells(patch, 1)));
+        if cut {
+            self.unsupported(Unsupported::ManyPatches, &looks.spot);
+            let cells = cells(curved.len());
+            curved.iter().for_each(|patch| append(&mut mesh, in_cells(patch, cells)));
         }
-        self.made(mesh.triangles.len(), &looks.spot)?;
-        if flat.normals.is_empty() && count == 0 {
-            mesh.normals.clear();
+        if !mesh.triangles.is_empty() {
+            self.made(mesh.triangles.len(), &looks.spot)?;
+            let mesh = super::mesh::oriented(mesh, false);
+            self.add_mesh("bilinearmesh", mesh, looks)?;
         }
-        let mesh = super::mesh::oriented(mesh, self.state.reverse);
-        self.add_mesh("bilinearmesh", mesh, looks)
+        for patch in curved.iter().filter(|_| !cut) {
+            let area = area(patch, &self.state.maps[0]);
+            self.add_shape("bilinearmesh", Geometry::Shape(ShapeKind::Patch(*patch)), area, looks)?;
+        }
+        Ok(())
     }
+
+    /// Whether shapes are lamps. Each patch is one, with the power of it all, as in pbrt.
+    fn shines(&self) -> bool {
+        self.state.area_light.is_some() && self.objects.open.is_none()
+    }
+}
+
+/// A patch whose front is that of pbrt: where the normals of its corners point, or else where u goes to v counter-clockwise; the
+/// reverse of both after `ReverseOrientation`.
+fn patch(mesh: &Mesh, corners: &[u32; 4], reverse: bool) -> Patch {
+    let corners = corners.map(|i| i as usize);
+    let mut patch = Patch::new(corners.map(|i| mesh.positions[i]));
+    if !mesh.uvs.is_empty() {
+        patch.uvs = corners.map(|i| mesh.uvs[i]);
+    }
+    if !mesh.normals.is_empty() {
+        patch.normals = Some(corners.map(|i| if reverse { -mesh.normals[i] } else { mesh.normals[i] }));
+    }
+    let turned = match patch.normals {
+        None => reverse,
+        Some(normals) => normal(&patch.corners, 0.5, 0.5).dot(normals.iter().sum()) < 0.0,
+    };
+    if turned {
+        patch.corners.swap(1, 2);
+        patch.uvs.swap(1, 2);
+        if let Some(normals) = &mut patch.normals {
+            normals.swap(1, 2);
+        }
+    }
+    patch
+}
+
+/// ∂p/∂u × ∂p/∂v.
+fn normal([a, b, c, d]: &[Vec3; 4], u: f32, v: f32) -> Vec3 {
+    ((b - a) * (1.0 - v) + (d - c) * v).cross((c - a) * (1.0 - u) + (d - b) * u)
+}
+
+/// Area in the world.
+fn area(patch: &Patch, map: &DAffine3) -> f32 {
+    const SIDE: u32 = 32;
+    let corners = patch.corners.map(|corner| map.transform_point3(corner.as_dvec3()).as_vec3());
+    let at = |i: u32| (i as f32 + 0.5) / SIDE as f32;
+    let parts = (0..SIDE * SIDE).map(|i| f64::from(normal(&corners, at(i % SIDE), at(i / SIDE)).length()));
+    (parts.sum::<f64>() / f64::from(SIDE * SIDE)) as f32
 }
 
 /// Cells along a side of each of so many patches.
@@ -60,31 +117,24 @@ fn cells(patches: usize) -> u32 {
     (room.isqrt() as u32).clamp(1, MOST_CELLS)
 }
 
-fn is_parallelogram(mesh: &Mesh, patch: &[u32; 4]) -> bool {
-    let [a, b, c, d] = patch.map(|i| mesh.positions[i as usize]);
-    let even = (a + d - b - c).length() <= TOLERANCE * ((b - a).length() + (c - a).length());
-    let uv = patch.map(|i| mesh.uvs.get(i as usize).copied());
-    let flat = match uv {
-        [Some(a), Some(b), Some(c), Some(d)] => (a + d - b - c).length() <= TOLERANCE,
-        _ => true,
-    };
-    even && flat
+/// Whether two triangles are the same as a patch.
+fn is_parallelogram(patch: &Patch) -> bool {
+    fn twist<T: Copy + Add<Output = T> + Sub<Output = T>>([a, b, c, d]: [T; 4]) -> T {
+        a + d - b - c
+    }
+    let [a, b, c, _] = patch.corners;
+    twist(patch.corners).length() <= TOLERANCE * ((b - a).length() + (c - a).length())
+        && twist(patch.uvs).length() <= TOLERANCE
+        && patch.normals.is_none_or(|normals| twist(normals).length() <= TOLERANCE)
 }
 
 /// A patch as so many cells along each side.
-fn cut(mesh: &Mesh, patch: &[u32; 4], cells: u32) -> Mesh {
-    let corners = patch.map(|i| mesh.positions[i as usize]);
-    let usual = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
-    let uvs = [0, 1, 2, 3].map(|i| mesh.uvs.get(patch[i] as usize).copied().unwrap_or(usual[i]));
-    let normals = patch.map(|i| mesh.normals.get(i as usize).copied());
-    let [a, b, c, d] = corners;
+fn in_cells(patch: &Patch, cells: u32) -> Mesh {
     grid([cells, cells], |u, v| {
-        let own = ((b - a) * (1.0 - v) + (d - c) * v).cross((c - a) * (1.0 - u) + (d - b) * u);
-        let normal = match normals {
-            [Some(a), Some(b), Some(c), Some(d)] => bilinear([a, b, c, d], u, v),
-            _ => own,
-        };
-        (bilinear(corners, u, v), normal.try_normalize().unwrap_or(Vec3::Z), bilinear(uvs, u, v))
+        let own = normal(&patch.corners, u, v);
+        let normal = patch.normals.map_or(own, |normals| bilinear(normals, u, v));
+        let unit = normal.try_normalize().unwrap_or(Vec3::Z);
+        (bilinear(patch.corners, u, v), unit, bilinear::<Vec2>(patch.uvs, u, v))
     })
 }
 

@@ -1,10 +1,10 @@
 //! Pictures: textures of class imagemap, and others that materials and cameras name.
 
+use super::parameter::number;
 use super::parameters::Parameters;
 use super::place::Spot;
 use super::reader::Reader;
 use super::texture::Number;
-use super::unsupported::Unsupported;
 use crate::import::text::{Limits, shown};
 use crate::scene::{
     Channel, ColorSpace, Handle, Image, ImageTexture, TexelFilter, Texels, Texture, UvTransform, Value, Wrap,
@@ -12,21 +12,38 @@ use crate::scene::{
 use crate::{Error, Result};
 use std::path::Path;
 
+/// How the integers of a picture are meant.
+#[derive(Debug, Clone, Copy)]
+enum Encoding {
+    Space(ColorSpace),
+    /// Linear light is this power of the numbers.
+    Gamma(f32),
+}
+
 impl Reader<'_> {
     pub(super) fn image_map(&mut self, from: &Parameters, number: Number) -> Result<Texture> {
         let (spot, path) =
             from.file("filename")?.ok_or_else(|| from.missing("filename", super::parameter::Type::String))?;
         let placement = self.placement(from)?;
         let filter = self.texel_filter(from)?;
-        let wrap = self.wrap(from)?;
+        let wraps = [
+            ("repeat", Wrap::Repeat),
+            ("clamp", Wrap::Clamp),
+            ("black", Wrap::Black),
+            ("octahedralsphere", Wrap::Octahedral),
+        ];
+        let wrap = from.choice_or("wrap", Wrap::Repeat, &wraps)?;
         let scale = from.float_or("scale", 1.0, Limits::Finite)?;
         let invert = from.bool_or("invert", false)?;
-        let encoded = self.encoding(from)?;
+        let encoding = encoding(from)?;
         from.float("maxanisotropy", Limits::Above(0.0))?;
-        let (image, transparent) = self.image(&spot, &path)?;
-        let color_space = match self.scene.images[image].texels {
-            Texels::Rgba8(_) | Texels::Rgba16(_) => encoded,
-            Texels::RgbaF32(_) => ColorSpace::Linear,
+        let (image, transparent) = match encoding {
+            Encoding::Space(_) => self.image(&spot, &path)?,
+            Encoding::Gamma(gamma) => self.image_of_gamma(&spot, &path, gamma)?,
+        };
+        let color_space = match (&self.scene.images[image].texels, encoding) {
+            (Texels::Rgba8(_) | Texels::Rgba16(_), Encoding::Space(space)) => space,
+            _ => ColorSpace::Linear,
         };
         // A number from a picture with holes is its alpha
         let channel = if number == Number::Float && transparent { Channel::A } else { Channel::Rgb };
@@ -67,37 +84,6 @@ impl Reader<'_> {
         from.choice_or("filter", smooth, &filters)
     }
 
-    fn wrap(&mut self, from: &Parameters) -> Result<Wrap> {
-        let wraps = [
-            ("repeat", Some(Wrap::Repeat)),
-            ("clamp", Some(Wrap::Clamp)),
-            ("black", Some(Wrap::Black)),
-            ("octahedralsphere", None),
-        ];
-        let wrap = from.choice_or("wrap", Some(Wrap::Repeat), &wraps)?;
-        Ok(wrap.unwrap_or_else(|| {
-            self.unsupported(Unsupported::Octahedral, &from.spot);
-            Wrap::Repeat
-        }))
-    }
-
-    fn encoding(&mut self, from: &Parameters) -> Result<ColorSpace> {
-        let Some((parameter, name)) = from.string("encoding")? else { return Ok(ColorSpace::Srgb) };
-        match name {
-            "sRGB" => Ok(ColorSpace::Srgb),
-            "linear" => Ok(ColorSpace::Linear),
-            _ if name.starts_with("gamma ") => {
-                let spot = parameter.spot.clone();
-                self.unsupported(Unsupported::Encoding, &spot);
-                Ok(ColorSpace::Srgb)
-            }
-            _ => {
-                let rule = "\"sRGB\", \"linear\" or \"gamma\" and a number";
-                Err(from.refuse(parameter, format!("\"{}\"", shown(name)), rule).help("choose one of them"))
-            }
-        }
-    }
-
     /// A picture in numbers as they are, for normals.
     pub(super) fn linear_picture(&mut self, spot: &Spot, path: &Path) -> Result<Handle<Texture>> {
         let (image, _) = self.image(spot, path)?;
@@ -117,18 +103,31 @@ impl Reader<'_> {
 
     /// The picture of a file, loaded once, and whether it has holes.
     pub(super) fn image(&mut self, spot: &Spot, path: &Path) -> Result<(Handle<Image>, bool)> {
-        if let Some(known) = self.images.get(path) {
+        self.image_as(spot, path, None)
+    }
+
+    /// The same of a file whose numbers are powers of linear light.
+    fn image_of_gamma(&mut self, spot: &Spot, path: &Path, gamma: f32) -> Result<(Handle<Image>, bool)> {
+        self.image_as(spot, path, Some(gamma))
+    }
+
+    fn image_as(&mut self, spot: &Spot, path: &Path, gamma: Option<f32>) -> Result<(Handle<Image>, bool)> {
+        let key = (path.to_path_buf(), gamma.map(f32::to_bits));
+        if let Some(known) = self.images.get(&key) {
             return Ok(*known);
         }
         self.need_file(spot, path)?;
-        let image = self.assets.image(path).map_err(|error| spot.locate(error))?;
+        let mut image = self.assets.image(path).map_err(|error| spot.locate(error))?;
+        if let Some(gamma) = gamma {
+            image = without_gamma(image, gamma);
+        }
         let transparent = match &image.texels {
             Texels::Rgba8(texels) => texels.iter().any(|texel| texel[3] != u8::MAX),
             Texels::Rgba16(texels) => texels.iter().any(|texel| texel[3] != u16::MAX),
             Texels::RgbaF32(texels) => texels.iter().any(|texel| texel[3] != 1.0),
         };
         let known = (self.scene.images.add(path.display().to_string(), image), transparent);
-        self.images.insert(path.to_path_buf(), known);
+        self.images.insert(key, known);
         Ok(known)
     }
 
@@ -141,4 +140,36 @@ impl Reader<'_> {
         Err(spot
             .locate(Error::scene(message).help("names are relative to the file that they are written in")))
     }
+}
+
+fn encoding(from: &Parameters) -> Result<Encoding> {
+    let Some((parameter, name)) = from.string("encoding")? else {
+        return Ok(Encoding::Space(ColorSpace::Srgb));
+    };
+    let words: Vec<_> = name.split_ascii_whitespace().collect();
+    match words.as_slice() {
+        ["sRGB"] => return Ok(Encoding::Space(ColorSpace::Srgb)),
+        ["linear"] => return Ok(Encoding::Space(ColorSpace::Linear)),
+        ["gamma", gamma] => match number(gamma).map(|gamma| gamma as f32) {
+            Some(gamma) if gamma > 0.0 && gamma.is_finite() => return Ok(Encoding::Gamma(gamma)),
+            _ => {}
+        },
+        _ => {}
+    }
+    let rule = "\"sRGB\", \"linear\" or \"gamma\" and a number above 0";
+    Err(from.refuse(parameter, format!("\"{}\"", shown(name)), rule).help("choose one of them"))
+}
+
+/// A picture of integers whose colours are powers of them; alpha is as it was. Floats are linear already.
+fn without_gamma(image: Image, gamma: f32) -> Image {
+    if matches!(image.texels, Texels::RgbaF32(_)) {
+        return image;
+    }
+    let count = image.width as usize * image.height as usize;
+    let texel = |i: usize| {
+        let [r, g, b, a] = image.linear(i, ColorSpace::Linear);
+        let [r, g, b] = [r, g, b].map(|c| c.powf(gamma));
+        [r, g, b, a]
+    };
+    Image { texels: Texels::RgbaF32((0..count).map(texel).collect()), ..image }
 }

@@ -7,9 +7,9 @@ use super::shape::Looks;
 use super::unsupported::Unsupported;
 use crate::Result;
 use crate::import::text::Limits;
-use crate::scene::{Mesh, ShapeKind};
+use crate::scene::{Extent, Mesh, Quadric, ShapeKind};
 use glam::{Vec2, Vec3};
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::TAU;
 
 /// Sides of a whole turn of a mesh; they leave out 8e-5 of the radius.
 const SIDES: f32 = 256.0;
@@ -25,83 +25,113 @@ struct Vertex {
 impl Reader<'_> {
     pub(super) fn sphere(&mut self, from: &Parameters, looks: &Looks) -> Result<()> {
         let radius = from.float_or("radius", 1.0, Limits::Above(0.0))?;
-        let [low, high] = zs(from, -radius, radius)?.map(|z| z.clamp(-radius, radius));
-        let phi = turn(from)?;
-        let area = phi * radius * (high - low);
-        let whole = low == -radius && high == radius && phi == TAU;
-        if whole && !self.state.reverse {
-            let kind = ShapeKind::Sphere { center: Vec3::ZERO, radius, pole: Vec3::Z, meridian: Vec3::X };
-            return self.add_shape("sphere", Geometry::Shape(kind), area, looks);
+        let [z_min, z_max] = zs(from, -radius, radius)?.map(|z| z.clamp(-radius, radius));
+        if z_min == z_max {
+            return Err(from.error("zmin and zmax leave nothing of the sphere").help("move them apart"));
         }
-        self.unsupported(
-            if whole { Unsupported::InsideOut } else { Unsupported::PartialSphere },
-            &looks.spot,
-        );
-        let [south, north] = [low, high].map(|z| (z / radius).clamp(-1.0, 1.0).acos());
-        let mesh = self.turned(phi, ROWS, |u, v| {
-            let (sin, cos) = (phi * u).sin_cos();
-            let (around, along) = (south + (north - south) * v).sin_cos();
-            let normal = Vec3::new(around * cos, around * sin, along);
-            Vertex { position: radius * normal, normal }
-        });
-        self.add_quadric("sphere", mesh, area, looks)
+        let phi_max = turn(from)?;
+        let sphere = if phi_max == 360.0 && z_min == -radius && z_max == radius {
+            ShapeKind::Sphere { center: Vec3::ZERO, radius, pole: Vec3::Z, meridian: Vec3::X }
+        } else {
+            part(Extent::Sphere { z_min, z_max }, 0.0, radius, phi_max)
+        };
+        let phi = phi_max.to_radians();
+        let area = phi * radius * (z_max - z_min);
+        self.add_quadric("sphere", sphere, area, looks, || {
+            let [south, north] = [z_min, z_max].map(|z| (z / radius).clamp(-1.0, 1.0).acos());
+            turned(phi, ROWS, |u, v| {
+                let (sin, cos) = (phi * u).sin_cos();
+                let (around, along) = (south + (north - south) * v).sin_cos();
+                let normal = Vec3::new(around * cos, around * sin, along);
+                Vertex { position: radius * normal, normal }
+            })
+        })
     }
 
     pub(super) fn cylinder(&mut self, from: &Parameters, looks: &Looks) -> Result<()> {
         let radius = from.float_or("radius", 1.0, Limits::Above(0.0))?;
-        let [low, high] = zs(from, -1.0, 1.0)?;
-        let phi = turn(from)?;
-        self.unsupported(Unsupported::Cylinder, &looks.spot);
-        let mesh = self.turned(phi, 1, |u, v| {
-            let (sin, cos) = (phi * u).sin_cos();
-            let normal = Vec3::new(cos, sin, 0.0);
-            Vertex { position: (radius * normal).with_z(low + (high - low) * v), normal }
-        });
-        self.add_quadric("cylinder", mesh, (high - low) * radius * phi, looks)
+        let [z_min, z_max] = zs(from, -1.0, 1.0)?;
+        let phi_max = turn(from)?;
+        let phi = phi_max.to_radians();
+        let cylinder = part(Extent::Cylinder { z_min, z_max }, 0.0, radius, phi_max);
+        let area = (z_max - z_min) * radius * phi;
+        self.add_quadric("cylinder", cylinder, area, looks, || {
+            turned(phi, 1, |u, v| {
+                let (sin, cos) = (phi * u).sin_cos();
+                let normal = Vec3::new(cos, sin, 0.0);
+                Vertex { position: (radius * normal).with_z(z_min + (z_max - z_min) * v), normal }
+            })
+        })
     }
 
     pub(super) fn disk(&mut self, from: &Parameters, looks: &Looks) -> Result<()> {
         let radius = from.float_or("radius", 1.0, Limits::Above(0.0))?;
-        let inner = from.float_or("innerradius", 0.0, Limits::AtLeast(0.0))?;
+        let inner_radius = from.float_or("innerradius", 0.0, Limits::AtLeast(0.0))?;
         let height = from.float_or("height", 0.0, Limits::Finite)?;
-        let phi = turn(from)?;
-        if inner >= radius {
+        let phi_max = turn(from)?;
+        if inner_radius >= radius {
             return Err(from
                 .error("the hole of the disk is as large as the disk")
                 .help("write a smaller innerradius"));
         }
-        let area = 0.5 * phi * (radius * radius - inner * inner);
-        let whole = inner == 0.0 && phi == TAU;
-        if whole && !self.state.reverse {
+        let disk = if inner_radius == 0.0 && phi_max == 360.0 {
             let center = Vec3::new(0.0, 0.0, height);
-            let kind = ShapeKind::Disk { center, normal: Vec3::Z, radius, meridian: Vec3::X };
-            return self.add_shape("disk", Geometry::Shape(kind), area, looks);
-        }
-        self.unsupported(if whole { Unsupported::InsideOut } else { Unsupported::PartialDisk }, &looks.spot);
-        let mesh = self.turned(phi, 1, |u, v| {
-            let (sin, cos) = (phi * u).sin_cos();
-            let r = radius + (inner - radius) * v;
-            Vertex { position: Vec3::new(r * cos, r * sin, height), normal: Vec3::Z }
-        });
-        self.add_quadric("disk", mesh, area, looks)
+            ShapeKind::Disk { center, normal: Vec3::Z, radius, meridian: Vec3::X }
+        } else {
+            part(Extent::Disk { inner_radius }, height, radius, phi_max)
+        };
+        let phi = phi_max.to_radians();
+        let area = 0.5 * phi * (radius * radius - inner_radius * inner_radius);
+        self.add_quadric("disk", disk, area, looks, || {
+            turned(phi, 1, |u, v| {
+                let (sin, cos) = (phi * u).sin_cos();
+                let r = radius + (inner_radius - radius) * v;
+                Vertex { position: Vec3::new(r * cos, r * sin, height), normal: Vec3::Z }
+            })
+        })
     }
 
-    fn add_quadric(&mut self, kind: &'static str, mesh: Mesh, area: f32, looks: &Looks) -> Result<()> {
+    /// Adds a quadric, or a mesh of it where its front is inside.
+    fn add_quadric(
+        &mut self,
+        kind: &'static str,
+        shape: ShapeKind,
+        area: f32,
+        looks: &Looks,
+        mesh: impl FnOnce() -> Mesh,
+    ) -> Result<()> {
+        if !self.inside_out() {
+            return self.add_shape(kind, Geometry::Shape(shape), area, looks);
+        }
+        self.unsupported(Unsupported::InsideOut, &looks.spot);
+        let mesh = super::mesh::oriented(mesh(), true);
         self.made(mesh.triangles.len(), &looks.spot)?;
-        let mesh = super::mesh::oriented(mesh, self.state.reverse);
         let name = format!("{kind} of {}", looks.spot.place());
         let handle = self.scene.meshes.add(name, mesh);
         self.add_shape(kind, Geometry::Mesh(handle), area, looks)
     }
 
-    /// A surface over u and v, with u along a turn of `phi`.
-    fn turned(&self, phi: f32, rows: u32, at: impl Fn(f32, f32) -> Vertex) -> Mesh {
-        let columns = ((SIDES * phi / TAU).ceil() as u32).max(1);
-        grid([columns, rows], |u, v| {
-            let Vertex { position, normal } = at(u, v);
-            (position, normal, Vec2::new(u, v))
-        })
+    /// Whether the front of a quadric is where its back would be: after `ReverseOrientation`, or when its transform mirrors it, but
+    /// not after both. pbrt does not count the transform of what moves.
+    fn inside_out(&self) -> bool {
+        let [open, close] = self.state.maps;
+        self.state.reverse != (open == close && open.matrix3.determinant() < 0.0)
     }
+}
+
+/// A surface over u and v, with u along a turn of `phi`.
+fn turned(phi: f32, rows: u32, at: impl Fn(f32, f32) -> Vertex) -> Mesh {
+    let columns = ((SIDES * phi / TAU).ceil() as u32).max(1);
+    grid([columns, rows], |u, v| {
+        let Vertex { position, normal } = at(u, v);
+        (position, normal, Vec2::new(u, v))
+    })
+}
+
+/// A quadric about the z axis, at a height.
+fn part(extent: Extent, height: f32, radius: f32, phi_max: f32) -> ShapeKind {
+    let center = Vec3::new(0.0, 0.0, height);
+    ShapeKind::Quadric(Quadric { extent, center, radius, axis: Vec3::Z, meridian: Vec3::X, phi_max })
 }
 
 /// A surface over u and v from 0 to 1, with normals and texture coordinates. Its front is where ∂p/∂u × ∂p/∂v points.
@@ -135,8 +165,7 @@ fn zs(from: &Parameters, low: f32, high: f32) -> Result<[f32; 2]> {
     Ok([a.min(b), a.max(b)])
 }
 
-/// Part of a whole turn, in radians.
+/// Part of a whole turn, in degrees.
 fn turn(from: &Parameters) -> Result<f32> {
-    let degrees = from.float_or("phimax", 360.0, Limits::Above(0.0))?;
-    Ok(if degrees >= 360.0 { TAU } else { degrees / 180.0 * PI })
+    Ok(from.float_or("phimax", 360.0, Limits::Above(0.0))?.min(360.0))
 }

@@ -40,8 +40,9 @@ pub(super) struct Reader<'a> {
     pub textures: Textures,
     pub wardrobe: Wardrobe,
     pub objects: Objects,
-    /// Pictures that are loaded already, and whether they have holes; meshes, and whether they are turned inside out.
-    pub images: HashMap<PathBuf, (Handle<Image>, bool)>,
+    /// Pictures that are loaded already, with the bits of their gamma, and whether they have holes.
+    pub images: HashMap<(PathBuf, Option<u32>), (Handle<Image>, bool)>,
+    /// Meshes that are loaded already, and whether they are turned inside out.
     pub meshes: HashMap<(PathBuf, bool), Handle<Mesh>>,
     pub missing: Missing,
     /// Triangles that cost little text.

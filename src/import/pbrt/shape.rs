@@ -8,16 +8,18 @@ use super::state::Target;
 use super::unsupported::Unsupported;
 use crate::Result;
 use crate::import::text::Limits;
-use crate::scene::{Emission, Handle, Material, Mesh, MeshPart, Value};
+use crate::scene::{Emission, Handle, Material, Mesh, MeshPart, Texture, Value};
 use glam::Vec3;
 use std::f32::consts::PI;
 
 const KINDS: [&str; 8] =
     ["sphere", "disk", "cylinder", "trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "curve"];
 
-/// Opacity and light of a shape.
+/// What a shape adds to its material.
 pub(super) struct Looks {
     pub alpha: Option<Value<f32>>,
+    /// Its vertices have tangents.
+    pub tangents: bool,
     pub spot: Spot,
 }
 
@@ -30,7 +32,7 @@ impl Reader<'_> {
             Some(Value::Constant(alpha)) => Some(Value::Constant(alpha.max(0.0))),
             other => other,
         };
-        let looks = Looks { alpha, spot: spot.clone() };
+        let looks = Looks { alpha, tangents: false, spot: spot.clone() };
         match kind.as_str() {
             "sphere" => self.sphere(&from, &looks)?,
             "disk" => self.disk(&from, &looks)?,
@@ -67,7 +69,7 @@ impl Reader<'_> {
         looks: &Looks,
     ) -> Result<()> {
         let emission = self.emission(area, &looks.spot);
-        let material = self.worn(emission, looks.alpha, &looks.spot);
+        let material = self.worn(emission, looks);
         self.add(kind, geometry, material, &looks.spot)
     }
 
@@ -84,7 +86,7 @@ impl Reader<'_> {
             Some(material) => material,
             None => {
                 let emission = self.emission(1.0, &looks.spot);
-                self.worn(emission, looks.alpha, &looks.spot)
+                self.worn(emission, looks)
             }
         };
         let name = format!("{kind} of {}", looks.spot.place());
@@ -128,7 +130,7 @@ impl Reader<'_> {
         }
         let dressed = parts.into_iter().map(|(part, area)| {
             let emission = self.emission(area, &looks.spot);
-            let material = Some(self.worn(emission, looks.alpha, &looks.spot));
+            let material = Some(self.worn(emission, looks));
             MeshPart { material, ..part }
         });
         dressed.collect()
@@ -144,13 +146,21 @@ impl Reader<'_> {
         let sides = if light.two_sided { 2.0 } else { 1.0 };
         let factor = match light.power {
             // A shape without an area has no light
-            Some(power) => {
-                Some(power / (sides * area * PI)).filter(|factor| factor.is_finite()).unwrap_or(0.0)
-            }
+            Some(power) => Some(power / (sides * area * PI * light.mean))
+                .filter(|factor| factor.is_finite())
+                .unwrap_or(0.0),
             None => 1.0,
         };
-        let radiance = light.radiance * factor;
-        let radiance = if radiance.is_finite() { radiance } else { Vec3::ZERO };
-        Some(Emission { radiance: Value::Constant(radiance), two_sided: light.two_sided })
+        let radiance = match light.radiance {
+            Value::Constant(color) => {
+                let color = color * factor;
+                Value::Constant(if color.is_finite() { color } else { Vec3::ZERO })
+            }
+            Value::Texture(_) if factor == 1.0 => light.radiance,
+            Value::Texture(_) => Value::Texture(
+                self.part(Texture::Scale { value: light.radiance, factor: Value::Constant(factor) }),
+            ),
+        };
+        Some(Emission { radiance, two_sided: light.two_sided })
     }
 }

@@ -53,30 +53,18 @@ unsupported! {
     Integrator: "Integrator \"ambientocclusion\" and \"function\"", "paths are traced";
     Regularize: "regularize", "nothing is made rougher";
     Curve: "Shape \"curve\"", "left out";
-    PartialSphere: "Shape \"sphere\" with zmin, zmax or phimax", "a mesh";
-    Cylinder: "Shape \"cylinder\"", "a mesh";
-    PartialDisk: "Shape \"disk\" with innerradius or phimax", "a mesh";
-    InsideOut: "ReverseOrientation of a sphere or disk", "a mesh";
-    BilinearPatch: "Shape \"bilinearmesh\" that is no parallelogram", "a mesh";
-    LoopSubdivision: "Shape \"loopsubdiv\"", "the mesh without subdivision";
-    EmissionImage: "emissionfilename", "it shines alike everywhere";
-    TangentVectors: "S of a trianglemesh", "tangents follow uv";
+    InsideOut: "a sphere, cylinder or disk whose front is turned inside", "a mesh";
+    ManyPatches: "Shape \"bilinearmesh\" of more than 65,536 patches", "triangles";
     DisplacedInstance: "displacement of a plymesh in an object", "its edges and heights are those of the smallest place";
-    Octahedral: "wrap \"octahedralsphere\"", "\"repeat\"";
-    Encoding: "encoding \"gamma …\"", "\"sRGB\"";
     Ptex: "Texture \"ptex\"", "a constant of 0.5";
-    CoatedDiffuse: "Material \"coateddiffuse\"", "a \"principled\" material without light between the layers";
-    CoatedConductor: "Material \"coatedconductor\"", "its conductor alone";
-    DiffuseTransmission: "Material \"diffusetransmission\"", "its reflection alone";
+    LayerMedium: "albedo of \"coateddiffuse\" or \"coatedconductor\"", "nothing is between the layers";
     Hair: "Material \"hair\"", "a \"diffuse\" one of 0.5";
     Measured: "Material \"measured\"", "a \"diffuse\" one of 0.5";
     Subsurface: "Material \"subsurface\"", "a \"diffuse\" one of 0.5";
     ShiningInterface: "an area light on Material \"interface\"", "the light is a black surface";
     ShearedLight: "a light with an image that is sheared", "its axes are taken as they are";
-    ImageIlluminance: "illuminance beside an image", "the image is as bright as it is";
     SecondEnvironment: "a second LightSource \"infinite\" beside an image", "the image alone shines";
     Portal: "portal", "the light shines from everywhere";
-    LampImage: "AreaLightSource with an image", "it shines alike everywhere";
     InstancedLamp: "an area light in an object", "it does not shine, as in pbrt";
 }
 

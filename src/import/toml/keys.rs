@@ -1,7 +1,9 @@
 //! Every key of the scene language, once. `scenes/README.md` explains each of them.
 
+mod materials;
 mod shapes;
 
+pub(super) use materials::MATERIAL;
 pub(super) use shapes::SHAPE;
 
 /// Keys of an object that has a `kind`.
@@ -248,49 +250,6 @@ pub(super) const TEXTURE: Kinds = Kinds {
     ],
 };
 
-const PRINCIPLED: &[&str] = &[
-    "base_color",
-    "metallic",
-    "roughness",
-    "alpha",
-    "ior",
-    "specular",
-    "specular_color",
-    "transmission",
-    "absorption",
-    "thin",
-    "clearcoat",
-    "clearcoat_roughness",
-    "sheen_color",
-    "sheen_roughness",
-];
-
-pub(super) const MATERIAL: Kinds = Kinds {
-    common: &[
-        "kind",
-        "emission",
-        "emission_scale",
-        "two_sided",
-        "opacity",
-        "opacity_cutoff",
-        "filter_color",
-        "sides",
-        "bump",
-        "normal_map",
-        "soften_terminator",
-        "keep_visible",
-    ],
-    kinds: &[
-        ("unlit", &["color"]),
-        ("diffuse", &["color"]),
-        ("phong", &["diffuse", "specular", "exponent"]),
-        ("conductor", &["reflectance", "fresnel", "eta", "k", "roughness", "alpha"]),
-        ("dielectric", &["ior", "roughness", "alpha", "absorption", "thin"]),
-        ("principled", PRINCIPLED),
-        ("mix", &["a", "b", "amount"]),
-    ],
-};
-
 /// The key of a table that stands for the value of a texture.
 pub(super) const TEXTURE_VALUE: &[&str] = &["texture"];
 
@@ -360,7 +319,16 @@ pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
     ),
     ("texture", &[&["file", "files", "source"]]),
     ("environment", &[&["color", "texture"], &["rotate", "transform"]]),
-    ("material", &[&["roughness", "alpha"], &["fresnel", "eta"], &["fresnel", "k"], &["reflectance", "eta"]]),
+    (
+        "material",
+        &[
+            &["roughness", "alpha"],
+            &["interface_roughness", "interface_alpha"],
+            &["fresnel", "eta"],
+            &["fresnel", "k"],
+            &["reflectance", "eta"],
+        ],
+    ),
     ("shape", &[&["origin", "center"]]),
     (
         "light",

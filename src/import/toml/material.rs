@@ -5,11 +5,11 @@ use super::keys::MATERIAL;
 use super::reader::Reader;
 use super::text::{Limits, number, shown};
 use super::view::{Item, View};
-use crate::Result;
 use crate::scene::{
-    Conductor, Dielectric, Emission, Fresnel, ImageTexture, Material, Principled, Roughness, Surface,
-    Texture, Value,
+    CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Emission, Fresnel, ImageTexture, Interface,
+    Material, Principled, Roughness, Surface, Texture, Value,
 };
+use crate::{Error, Result};
 use glam::Vec3;
 
 /// What a reflectance may be.
@@ -18,6 +18,8 @@ const REFLECTANCE: Limits = Limits::From(0.0, 1.0);
 const MAX_EXPONENT: f32 = 1e6;
 /// Real materials reach about 8; the range leaves room and keeps squares harmless.
 const MAX_INDEX: f32 = 100.0;
+/// The GGX widths of a surface, squared and as they are.
+const WIDTHS: [&str; 2] = ["roughness", "alpha"];
 
 impl Reader<'_> {
     /// All materials. Mixes may be made of others in any order, so each has its name before any is read.
@@ -39,25 +41,31 @@ impl Reader<'_> {
         let (view, kind) = View::of_kind(self.sources, &entry.node, format!("material `{name}`"), &MATERIAL)?;
         let surface = match kind {
             "unlit" => Surface::Unlit { color: self.color(view.need("color")?, Limits::AtLeast(0.0))? },
+            "diffuse_transmission" => {
+                let [reflectance, transmittance] =
+                    self.two_parts(entry, &view, [("color", 0.25), ("transmittance", 0.25)])?;
+                Surface::DiffuseTransmission { reflectance, transmittance }
+            }
             "phong" => {
-                let diffuse = self.color_or(&view, "diffuse", 0.5, REFLECTANCE)?;
-                let specular = self.color_or(&view, "specular", 0.0, REFLECTANCE)?;
+                let [diffuse, specular] =
+                    self.two_parts(entry, &view, [("diffuse", 0.5), ("specular", 0.0)])?;
                 let exponent = self.number_or(&view, "exponent", 50.0, Limits::From(0.0, MAX_EXPONENT))?;
-                if let (Value::Constant(kd), Value::Constant(ks)) = (diffuse, specular) {
-                    let sum = (kd + ks).max_element();
-                    if sum > 1.0 {
-                        let sum = number(f64::from(sum));
-                        let what = &view.what;
-                        self.warn(
-                            entry.spot,
-                            format!("`diffuse` + `specular` reaches {sum} in {what}; it is scaled down to 1"),
-                        );
-                    }
-                }
                 Surface::Phong { diffuse, specular, exponent }
             }
             "conductor" => Surface::Conductor(self.conductor(&view)?),
             "dielectric" => Surface::Dielectric(self.dielectric(&view)?),
+            "coated_diffuse" => Surface::CoatedDiffuse(CoatedDiffuse {
+                color: self.color_or(&view, "color", 0.5, REFLECTANCE)?,
+                interface: self.interface(&view, "ior", WIDTHS)?,
+            }),
+            "coated_conductor" => Surface::CoatedConductor(Box::new(CoatedConductor {
+                conductor: self.conductor(&view)?,
+                interface: self.interface(
+                    &view,
+                    "interface_ior",
+                    ["interface_roughness", "interface_alpha"],
+                )?,
+            })),
             "principled" => Surface::Principled(Box::new(self.principled(&view)?)),
             "mix" => Surface::Mix(self.mix(&view)?),
             _ => Surface::Diffuse { color: self.color_or(&view, "color", 0.5, REFLECTANCE)? },
@@ -65,6 +73,29 @@ impl Reader<'_> {
         let emission = self.emission(&view, &entry.key)?;
         let detail = self.detail(&view)?;
         Ok(Material { surface, emission, detail })
+    }
+
+    /// Two parts of the light, which together should be 1 at most.
+    fn two_parts(
+        &mut self,
+        entry: &Entry,
+        view: &View<'_>,
+        keys: [(&str, f32); 2],
+    ) -> Result<[Value<Vec3>; 2]> {
+        let [(a, usual_a), (b, usual_b)] = keys;
+        let parts =
+            [self.color_or(view, a, usual_a, REFLECTANCE)?, self.color_or(view, b, usual_b, REFLECTANCE)?];
+        if let [Value::Constant(first), Value::Constant(second)] = parts {
+            let sum = (first + second).max_element();
+            if sum > 1.0 {
+                let (sum, what) = (number(f64::from(sum)), &view.what);
+                self.warn(
+                    entry.spot,
+                    format!("`{a}` + `{b}` reaches {sum} in {what}; it is scaled down to 1"),
+                );
+            }
+        }
+        Ok(parts)
     }
 
     fn color_or(&self, view: &View<'_>, key: &str, default: f32, limits: Limits) -> Result<Value<Vec3>> {
@@ -83,7 +114,7 @@ impl Reader<'_> {
     }
 
     fn conductor(&self, view: &View<'_>) -> Result<Conductor> {
-        let roughness = self.roughness(view)?;
+        let roughness = self.roughness(view, WIDTHS)?;
         if view.get("eta").is_none() && view.get("k").is_none() {
             let models = [("exact", Fresnel::Exact), ("schlick", Fresnel::Schlick), ("none", Fresnel::None)];
             let reflectance = self.color_or(view, "reflectance", 0.9, REFLECTANCE)?;
@@ -105,10 +136,10 @@ impl Reader<'_> {
 
     fn dielectric(&self, view: &View<'_>) -> Result<Dielectric> {
         let ior = self.number_or(view, "ior", 1.5, Limits::AboveUpTo(0.0, MAX_INDEX))?;
-        let roughness = self.roughness(view)?;
+        let roughness = self.roughness(view, WIDTHS)?;
         let thin = view.bool_or("thin", false)?;
         let absorption = absorption(view, thin)?;
-        let rough = view.get("roughness").or(view.get("alpha")).filter(|_| !roughness.is_smooth());
+        let rough = view.either(WIDTHS[0], WIDTHS[1])?.filter(|_| !roughness.is_smooth());
         if let Some(item) = rough {
             if thin {
                 return Err(item
@@ -116,12 +147,20 @@ impl Reader<'_> {
                     .help(format!("remove {}", item.name())));
             }
             if ior == Value::Constant(1.0) {
-                return Err(item
-                    .error("a rough surface needs an `ior` other than 1")
-                    .help(format!("change `ior` or remove {}", item.name())));
+                return Err(bends_nothing(item, "ior"));
             }
         }
         Ok(Dielectric { ior, roughness, absorption, thin })
+    }
+
+    /// A dielectric over an opaque base.
+    fn interface(&self, view: &View<'_>, index: &str, widths: [&str; 2]) -> Result<Interface> {
+        let ior = view.f32_or(index, 1.5, Limits::From(1.0, MAX_INDEX))?;
+        let roughness = self.roughness(view, widths)?;
+        match view.either(widths[0], widths[1])? {
+            Some(item) if ior == 1.0 && !roughness.is_smooth() => Err(bends_nothing(item, index)),
+            _ => Ok(Interface { ior, roughness }),
+        }
     }
 
     fn principled(&self, view: &View<'_>) -> Result<Principled> {
@@ -132,7 +171,7 @@ impl Reader<'_> {
         let principled = Principled {
             base_color: self.color_or(view, "base_color", 0.5, REFLECTANCE)?,
             metallic: self.number_or(view, "metallic", 0.0, part)?,
-            roughness: if rough.is_some() { self.roughness(view)? } else { default.roughness },
+            roughness: if rough.is_some() { self.roughness(view, WIDTHS)? } else { default.roughness },
             ior: self.number_or(view, "ior", 1.5, Limits::From(1.0, MAX_INDEX))?,
             specular: self.number_or(view, "specular", 1.0, part)?,
             specular_color: self.color_or(view, "specular_color", 1.0, Limits::AtLeast(0.0))?,
@@ -152,13 +191,13 @@ impl Reader<'_> {
         }
     }
 
-    /// GGX widths from `roughness` (squared) or `alpha` (as it is).
-    fn roughness(&self, view: &View<'_>) -> Result<Roughness> {
-        let Some(item) = view.either("roughness", "alpha")? else {
+    /// GGX widths from a key of roughness (squared) or one of widths (as they are).
+    fn roughness(&self, view: &View<'_>, [roughness, alpha]: [&str; 2]) -> Result<Roughness> {
+        let Some(item) = view.either(roughness, alpha)? else {
             return Ok(Roughness::alpha(0.0));
         };
         let [u, v] = pair(item, |one| self.number(one, Limits::From(0.0, 1.0)))?;
-        Ok(Roughness { u, v, squared: view.get("roughness").is_some() })
+        Ok(Roughness { u, v, squared: view.get(roughness).is_some() })
     }
 
     fn emission(&mut self, view: &View<'_>, name: &str) -> Result<Option<Emission>> {
@@ -201,6 +240,12 @@ impl Reader<'_> {
         };
         Ok(Some(Emission { radiance, two_sided }))
     }
+}
+
+/// A rough boundary of nothing.
+fn bends_nothing(item: Item<'_>, index: &str) -> Error {
+    item.error(format!("a rough surface needs an `{index}` other than 1"))
+        .help(format!("change `{index}` or remove {}", item.name()))
 }
 
 /// What the inside of glass absorbs.

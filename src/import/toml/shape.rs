@@ -8,7 +8,7 @@ use super::transform::transform;
 use super::view::{Item, View};
 use crate::Result;
 use crate::scene::{Extent, Instance, Patch, Quadric, Shape, ShapeKind};
-use glam::{Affine3A, DVec3, Vec3};
+use glam::{Affine3A, Vec3};
 
 /// Sine of the angle below which two directions count as parallel.
 const MIN_SINE: f64 = 1e-6;
@@ -208,17 +208,11 @@ fn quad(view: &View<'_>) -> Result<ShapeKind> {
 fn patch(view: &View<'_>) -> Result<ShapeKind> {
     let corner = |key: &str| view.need(key)?.vec3(Limits::Finite);
     let corners = [corner("p00")?, corner("p10")?, corner("p01")?, corner("p11")?];
-    let [p00, p10, p01, p11] = corners.map(|corner| corner.as_dvec3());
-    // Whether the triangles at opposite corners have an area
-    let at = |p: DVec3, a: DVec3, b: DVec3| {
-        let (a, b) = (a - p, b - p);
-        a.cross(b).length() > MIN_SINE * a.length() * b.length()
-    };
-    if !at(p00, p10, p01) && !at(p11, p01, p10) {
+    let mut patch = Patch::new(corners);
+    if !patch.has_area() {
         let message = format!("{} has no area: its corners are on one line, or `p10` is `p01`", view.what);
         return Err(view.error(message));
     }
-    let mut patch = Patch::new(corners);
     if let Some(item) = view.get("normals") {
         patch.normals = Some(four(item, |normal| normal.direction())?);
     }

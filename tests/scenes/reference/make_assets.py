@@ -30,7 +30,5 @@ def grey(value):
     return (value, value, value)
 
 
-checker("checker_j_thinlens.png", grey(0.6), grey(0.2))
-checker("checker_l_materials.png", grey(0.6), grey(0.25))
 checker("checker_m_dielectric.png", (0.7, 0.3, 0.1), (0.1, 0.3, 0.5))
 checker("checker_m_thinlens.png", (0.7, 0.2, 0.1), (0.1, 0.2, 0.3))

@@ -3,7 +3,9 @@
 mod damage;
 mod errors;
 mod files;
+mod lights;
 mod manual;
+mod shapes;
 
 use super::read_pbrt;
 use crate::import::{Assets, Spacing, Warning};
@@ -21,6 +23,11 @@ struct Memory {
 
 impl Assets for Memory {
     fn image(&mut self, path: &Path) -> Result<Image> {
+        if path.ends_with("two.png") {
+            // Black above white, and in the middle grey
+            let texels = Texels::Rgba8(vec![[0, 0, 0, 255], [128, 128, 128, 255], [255, 255, 255, 255]]);
+            return Ok(Image { width: 1, height: 3, texels });
+        }
         let texels = match path.extension().and_then(|ext| ext.to_str()) {
             Some("png") => Texels::Rgba8(vec![[255; 4]]),
             Some("exr") => Texels::RgbaF32(vec![[1.0, 1.0, 1.0, 0.5]]),
@@ -82,7 +89,7 @@ const ALL: &str = include_str!("all.pbrt");
 fn a_scene_with_everything_is_read() {
     let (_, warnings) = read(ALL).unwrap_or_else(|error| panic!("{error}"));
     assert!(warnings.iter().all(|warning| warning.message.starts_with("not supported: ")));
-    assert!(warnings.len() > 30, "{}", warnings.len());
+    assert!(warnings.len() >= 25, "{}", warnings.len());
 }
 
 #[test]

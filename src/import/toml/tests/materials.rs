@@ -34,6 +34,9 @@ fn materials_take_every_key() {
         material("chalk").emission.as_ref().unwrap().radiance,
         Value::Constant(Vec3::new(2.0, 4.0, 6.0))
     );
+    let transmittance = Value::Texture(texture("plain"));
+    let reflectance = Value::Constant(Vec3::new(0.125, 0.5, 0.0));
+    assert_eq!(material("leaf").surface, Surface::DiffuseTransmission { reflectance, transmittance });
     let opacity = &material("chalk").detail.opacity;
     assert_eq!((opacity.value, opacity.cutoff), (Value::Texture(texture("plain")), Some(0.75)));
     assert_eq!(opacity.filter, Value::Constant(Vec3::new(1.0, 0.5, 0.25)));
@@ -70,6 +73,20 @@ fn materials_take_every_key() {
     assert_eq!((glass.absorption, glass.thin), (Vec3::new(0.0, 0.5, 1.0), false));
     let (u, v) = (Value::Texture(texture("wood")), Value::Constant(0.25));
     assert_eq!(glass.roughness, Roughness { u, v, squared: true });
+    let wood = Value::Texture(texture("wood"));
+    let roughness = Roughness { u: wood, v: Value::Constant(0.25), squared: true };
+    let color = Value::Texture(texture("plain"));
+    let interface = Interface { ior: 1.25, roughness };
+    assert_eq!(material("glaze").surface, Surface::CoatedDiffuse(CoatedDiffuse { color, interface }));
+    let conductor =
+        Conductor { reflectance: steel.reflectance, fresnel: Fresnel::None, roughness: same(0.5) };
+    let interface = Interface { ior: 1.75, roughness: Roughness::alphas(Value::Constant(0.25), wood) };
+    let coated =
+        |conductor, interface| Surface::CoatedConductor(Box::new(CoatedConductor { conductor, interface }));
+    assert_eq!(material("lacquer").surface, coated(conductor, interface));
+    let fresnel = Fresnel::Index { eta: grey(2.0), k: grey(4.0) };
+    let conductor = Conductor { reflectance: grey(1.0), fresnel, roughness: Roughness::alpha(0.5) };
+    assert_eq!(material("tin").surface, coated(conductor, Interface { ior: 1.5, roughness: same(0.25) }));
     let Surface::Dielectric(pane) = &material("pane").surface else { panic!("pane") };
     let Surface::Principled(car) = &material("car").surface else { panic!("car") };
     let number = Value::Constant;
