@@ -62,19 +62,26 @@ const uint MATERIAL_CONDUCTOR = 3u; // Material kind: mirror or GGX metal.
 const uint MATERIAL_DIELECTRIC = 4u; // Material kind: smooth or GGX glass.
 const uint MATERIAL_PRINCIPLED = 5u; // Material kind: the model of glTF.
 const uint MATERIAL_MIX = 6u; // Material kind: one of two materials at each event.
+const uint MATERIAL_DIFFUSE_TRANSMISSION = 7u; // Material kind: Lambertian on both sides.
+const uint MATERIAL_COATED_DIFFUSE = 8u; // Material kind: a dielectric interface over a Lambertian base.
+const uint MATERIAL_COATED_CONDUCTOR = 9u; // Material kind: a dielectric interface over metal.
 const uint MATERIAL_WORDS = 12u; // Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
 const uint MATERIAL_TWO_SIDED = 1u; // Material flag: it sends light out on both sides.
 const uint MATERIAL_SQUARED = 2u; // Material flag: what its roughness inputs give are roughnesses, to be squared.
+const uint MATERIAL_INTERFACE_SQUARED = 4u; // Material flag: what its interface inputs give are roughnesses, to be squared.
 const uint INPUT_EMISSION = 1u; // ColorInput of all materials: radiance sent out.
 const uint INPUT_COLOR = 2u; // ColorInput: radiance, reflectance, diffuse coefficient or base colour.
 const uint INPUT_ROUGHNESS = 3u; // NumberInputs: GGX widths along ∂p/∂u and across it.
-const uint INPUT_SPECULAR = 4u; // ColorInput: specular coefficient of Phong, η of a conductor, specular colour.
+const uint INPUT_SPECULAR = 4u; // ColorInput: specular coefficient of Phong, transmittance, η of a conductor, specular colour.
 const uint INPUT_ABSORPTION = 5u; // ColorInput: k of a conductor; absorption inside of glass, which takes no texture.
 const uint INPUT_INDEX = 6u; // NumberInputs: index of refraction of a dielectric, or exponent of Phong; weight of what a dielectric reflects.
 const uint INPUT_METALLIC = 7u; // NumberInputs: metallic, transmission.
-const uint INPUT_CLEARCOAT = 8u; // NumberInputs: clearcoat, its roughness.
+const uint INPUT_CLEARCOAT = 8u; // NumberInputs: clearcoat, its roughness; GGX widths of an interface over metal.
 const uint INPUT_SHEEN = 9u; // ColorInput: sheen.
 const uint INPUT_SHEEN_ROUGHNESS = 10u; // NumberInputs: roughness of the sheen.
+const uint INPUT_INTERFACE = 10u; // InterfaceInput, where there is no sheen.
+const uint INTERFACE_COLUMNS = 32u; // Cells of a table of an interface along the cosine.
+const uint INTERFACE_ROWS = 16u; // Cells of a table of an interface along the width.
 const uint INPUT_MIX = 11u; // MixInput.
 const uint DETAIL_CURVATURE = 1u; // Detail flag: the bend of the surface itself, times the height, counts in a bump map.
 const uint DETAIL_SOFT_TERMINATOR = 2u; // Detail flag: the light at the edge of bumps is softened.
@@ -383,6 +390,23 @@ NumberInputs number_inputs_unpack(uvec4 w0)
     r.first_texture = w0.y;
     r.second = uintBitsToFloat(w0.z);
     r.second_texture = w0.w;
+    return r;
+}
+
+struct InterfaceInput {
+    uint through_table; // word of `materials` with the table of what it lets through when rough, or NONE
+    uint inner_table; // word with the table of what leaves rough metal below it, or NONE
+    float through_mean; // what it lets through when smooth of light from everywhere: 2 ∫ T(μ) μ dμ
+    uint spare; // room
+};
+const uint INTERFACE_INPUT_WORDS = 1u;
+InterfaceInput interface_input_unpack(uvec4 w0)
+{
+    InterfaceInput r;
+    r.through_table = w0.x;
+    r.inner_table = w0.y;
+    r.through_mean = uintBitsToFloat(w0.z);
+    r.spare = w0.w;
     return r;
 }
 
