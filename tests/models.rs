@@ -1,4 +1,4 @@
-//! glTF models whose pictures have a right answer, from the collection in `../shared/assets/gltf`.
+//! Models whose pictures have a right answer: those of the collection in `../shared/assets/gltf`, and one in OBJ.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -11,7 +11,7 @@ mod common;
 use common::render::*;
 use dapple::film::Picture;
 use dapple::import::{ModelChoice, read_scene, read_scene_showing};
-use dapple::scene::{Projection, Scene};
+use dapple::scene::{Projection, Scene, Surface};
 use std::path::{Path, PathBuf};
 
 /// A model of the collection; none, with a notice, where it is missing outside CI.
@@ -185,4 +185,134 @@ fn instances_are_stored_once() {
     assert_eq!((stored, scene.instances.len()), (4034, 1900));
     let placed: usize = scene.instances.iter().map(|i| scene.meshes[i.mesh].triangles.len()).sum();
     assert!((7_600_000..7_700_000).contains(&placed), "{placed}");
+}
+
+/// Covered part of the middle of a picture of a model, from a place towards another.
+fn covered(file: &Path, position: [f32; 3], target: [f32; 3]) -> f32 {
+    let scene = scene_with(
+        file,
+        &format!(
+            "film.size = [8, 8]\nrender = {{ spp = 4, max_depth = 1 }}\nenvironment.color = 1\n\
+             camera = {{ position = {position:?}, target = {target:?}, fov = 2 }}"
+        ),
+    );
+    let picture = render(&scene);
+    picture.alpha.iter().sum::<f32>() / picture.alpha.len() as f32
+}
+
+#[test]
+fn what_is_single_sided_is_not_there_from_inside() {
+    let Some(file) = model("01_single_vs_double_sided/01_single_vs_double_sided.gltf") else { return };
+    // Balls with holes at their poles, whose axis is upright: the double-sided one at the origin, the other beside it
+    assert_eq!(covered(&file, [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]), 1.0);
+    assert_eq!(covered(&file, [-2.5, 0.0, 0.0], [-2.5, 0.0, 1.0]), 0.0);
+    for x in [0.0, -2.5] {
+        assert_eq!(covered(&file, [x, 0.0, 3.0], [x, 0.0, 0.0]), 1.0, "from outside at {x}");
+    }
+    let Some(plane) = model("TwoSidedPlane/TwoSidedPlane.gltf") else { return };
+    for y in [3.0, -3.0] {
+        assert_eq!(covered(&plane, [0.1, y, 0.1], [0.0, 0.0, 0.0]), 1.0, "from {y}");
+    }
+}
+
+#[test]
+fn colours_of_vertices_are_linear_and_mixed_over_the_triangle() {
+    let Some(file) = model("22_vertex_color/22_vertex_color.gltf") else { return };
+    let side = |below: bool| {
+        let (y, up) = if below { (-5, 1) } else { (5, -1) };
+        let mut scene = scene_with(
+            &file,
+            &format!(
+                "film.size = [40, 80]\nrender = {{ spp = 64, max_depth = 0 }}\nenvironment.color = 1\n\
+                 camera = {{ kind = 'orthographic', position = [0, {y}, 1], target = [0, 0, 1], up = [0, 0, {up}], view_size = 8 }}"
+            ),
+        );
+        let colors: Vec<_> =
+            scene.materials.iter().map(|(handle, _, material)| (handle, material.surface.clone())).collect();
+        for (handle, surface) in colors {
+            let Surface::Principled(principled) = surface else { panic!("{surface:?}") };
+            scene.materials[handle].surface = Surface::Unlit { color: principled.base_color };
+        }
+        render(&scene)
+    };
+    let corners = [[2250, 51349, 4864], [4736, 637, 51349], [65535, 41337, 31412]]
+        .map(|c: [u16; 3]| c.map(|x| f32::from(x) / 65535.0));
+    let picture = side(true);
+    // The triangle (−1, 1), (1, 1), (−1, −1) of x and z, at z = 0 and again at z = 3: the middles of its pixels
+    for z in [0.0, 3.0] {
+        for (x, y) in [(-0.55, 0.55), (-0.85, 0.75), (-0.75, -0.35), (0.35, 0.85)] {
+            let (a, b) = (0.5 * (x + 1.0), 0.5 * (1.0 - y));
+            let found = pixel(&picture, [40, 80], 10.0, x, y + z - 1.0);
+            for k in 0..3 {
+                let expected = (1.0 - a - b) * corners[0][k] + a * corners[1][k] + b * corners[2][k];
+                assert!(
+                    (found[k] - expected).abs() < 5e-3,
+                    "{x} {y} {z}: {found:?}, expected {expected} in {k}"
+                );
+            }
+        }
+    }
+    assert!(side(false).alpha.iter().all(|alpha| *alpha == 0.0), "its default material has a front alone");
+}
+
+#[test]
+fn alpha_of_vertices_does_not_make_an_opaque_material_clear() {
+    let Some(file) = model("BoxVertexColors/BoxVertexColors.glb") else { return };
+    // Its corners have an alpha from 0 to 1, and its material is opaque
+    assert_eq!(covered(&file, [2.0, 2.5, 3.0], [0.0, 0.0, 0.0]), 1.0);
+}
+
+#[test]
+fn a_model_with_two_sets_of_texture_coordinates_has_both() {
+    let Some(file) = model("12_orm_two_uvmaps/12_orm_two_uvmaps.gltf") else { return };
+    let (scene, warnings) = read_scene(&file, &[]).unwrap();
+    assert!(warnings.is_empty(), "{}", warnings[0]);
+    let mesh = scene.meshes.iter().next().unwrap().2;
+    assert_eq!((mesh.uvs1.len(), mesh.uvs.len()), (24, 24));
+    assert_eq!(mesh.uvs1, mesh.uvs, "the sets of this file are alike");
+}
+
+#[test]
+fn an_obj_file_shines_with_the_pictures_of_its_materials() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    // Four squares of 4 × 4 texels: in their middles nothing is filtered
+    let [red, green, blue, white] = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]];
+    let texel = |i: usize| match (i / 32, i % 8 / 4) {
+        (0, 0) => red,
+        (0, _) => green,
+        (_, 0) => blue,
+        _ => white,
+    };
+    let texels: Vec<u8> = (0..64).flat_map(texel).collect();
+    image::save_buffer(at("four.png"), &texels, 8, 8, image::ColorType::Rgb8).unwrap();
+    std::fs::write(
+        at("m.mtl"),
+        "newmtl plain\nKd 0\nKe 0.25 0.5 0.75\nnewmtl four\nKd 0\nKe 2 1 1\nmap_Ke -o 0.5 0 four.png\n",
+    )
+    .unwrap();
+    let square = |x: i32| format!("v {x} 0 0\nv {} 0 0\nv {} 2 0\nv {x} 2 0\n", x + 2, x + 2);
+    let object = format!(
+        "mtllib m.mtl\n{}{}vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl plain\nf 1/1 2/2 3/3 4/4\nusemtl four\nf 5/1 6/2 7/3 8/4\n",
+        square(-2),
+        square(0)
+    );
+    std::fs::write(at("m.obj"), object).unwrap();
+    let scene = scene_with(
+        &at("m.obj"),
+        "film.size = [36, 18]\nrender = { spp = 16, max_depth = 0 }\n\
+         camera = { kind = 'orthographic', position = [0, 1, 5], target = [0, 1, 0], view_size = 2 }",
+    );
+    let picture = render(&scene);
+    let near = |x: f32, y: f32, expected: [f32; 3]| {
+        let found = pixel(&picture, [36, 18], 9.0, x, y - 1.0);
+        let same = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5);
+        assert!(same, "{x} {y}: {found:?}, expected {expected:?}");
+    };
+    near(-1.0, 1.0, [0.25, 0.5, 0.75]);
+    // The picture is moved by half of its width
+    near(0.5, 0.5, [2.0, 1.0, 1.0]);
+    near(1.5, 0.5, [0.0, 0.0, 1.0]);
+    near(0.5, 1.5, [0.0, 1.0, 0.0]);
+    near(1.5, 1.5, [2.0, 0.0, 0.0]);
 }

@@ -44,7 +44,7 @@ Surface triangle_surface(uint index, Instance instance, bool to_world, vec3 orig
     vec3 ac = triangle.c - triangle.a;
     vec3 p = triangle.a + bary.x * ab + bary.y * ac;
     vec3 geometric = cross(ab, ac);
-    s.primitive = triangle.primitive & ~PRIMITIVE_LETS_THROUGH;
+    s.primitive = triangle.primitive & ~(PRIMITIVE_LETS_THROUGH | PRIMITIVE_FRONT_ONLY);
     s.reach = max_component(max(abs(triangle.a), max(abs(triangle.b), abs(triangle.c))));
 
     // uv (0,0), (1,0), (1,1) where the mesh has none; two corners changed places where it was mirrored into the world

@@ -1,6 +1,6 @@
 // Rays through the two levels of trees. Switches of the variant: HAS_INSTANCES (there is a tree over instances; else
-// the root is that of the triangles in world space), HAS_OPACITY (some surfaces let rays through), ANY_HIT (stop at the first
-// hit), PARKING, and those of the menu of shapes.
+// the root is that of the triangles in world space), HAS_OPACITY (some surfaces let rays through), HAS_FRONT_ONLY (some
+// triangles are not there from behind), ANY_HIT (stop at the first hit), PARKING, and those of the menu of shapes.
 //
 // A ray takes at most `frame.step_limit` steps at once: Mesa before 25.0 leaves loops after 65,535 rounds. A step takes up
 // to ROUNDS_A_STEP of them.
@@ -9,14 +9,13 @@
 #include "geometry/shape.glsl"
 #include "geometry/triangle.glsl"
 #include "geometry/walk.glsl"
-
+#include "geometry/node.glsl"
 #ifdef PARKING
 #include "geometry/park.glsl"
 #endif
 #ifdef HAS_OPACITY
 #include "geometry/passing.glsl"
 #endif
-#include "geometry/node.glsl"
 
 // Follows a ray, from `hit.t` = t_max. True when it is finished. Else it ran out of steps: with PARKING it is parked at
 // `place` and goes on from there when `resumed`; without, `hit` is of no use.
@@ -58,6 +57,10 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Passi
             float t;
             vec2 bary;
             bool found = triangle_hit(triangle.a, triangle.b, triangle.c, ray.triangles, walk.hit.t, t, bary) && leaf;
+#ifdef HAS_FRONT_ONLY
+            bool behind = is_behind(triangle.a, triangle.b, triangle.c, ray.origin);
+            found = found && !(behind && (triangle.primitive & PRIMITIVE_FRONT_ONLY) != 0u);
+#endif
 #ifdef HAS_OPACITY
             // A triangle that may let the ray through is looked at outside of this loop
             if (found && (triangle.primitive & PRIMITIVE_LETS_THROUGH) != 0u) {

@@ -42,3 +42,6 @@ bool triangle_hit(vec3 a, vec3 b, vec3 c, TriangleRay ray, float t_max, out floa
     bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
     return inside && sum != 0.0 && t > 0.0 && t < t_max;
 }
+
+// Whether a point is behind the plane of a triangle: so is the begin of a ray that meets it from behind.
+bool is_behind(vec3 a, vec3 b, vec3 c, vec3 point) { return dot(cross(b - a, c - a), a - point) > 0.0; }

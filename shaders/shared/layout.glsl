@@ -44,6 +44,7 @@ const uint CHILD_NONE = 255u; // Byte of a node where it has no child.
 const uint CHILD_OFFSET_MASK = 15u; // Bits of the byte of a child: its first item, counted from the first item of all children.
 const uint CHILD_MARK_SHIFT = 24u; // Places that the other bits of that byte move up to become those of a reference.
 const uint PRIMITIVE_LETS_THROUGH = 2147483648u; // Bit of the number of a triangle within its mesh: rays may go through it.
+const uint PRIMITIVE_FRONT_ONLY = 1073741824u; // Bit of the number of a triangle within its mesh: it is not there from behind.
 const uint INSTANCE_MESH = 0u; // Instance kind: triangles in object space.
 const uint INSTANCE_SOUP = 1u; // Instance kind: all triangles that are placed once, in world space.
 const uint INSTANCE_SPHERE = 2u; // Instance kind: unit sphere.
@@ -231,7 +232,7 @@ struct Triangle {
     vec3 b; // second vertex
     uint material; // its material, or NONE for that of the instance
     vec3 c; // third vertex
-    uint primitive; // number of the triangle within its mesh, and the bit PRIMITIVE_LETS_THROUGH
+    uint primitive; // number of the triangle within its mesh, and one of the bits PRIMITIVE_LETS_THROUGH and PRIMITIVE_FRONT_ONLY
 };
 const uint TRIANGLE_WORDS = 3u;
 Triangle triangle_unpack(uvec4 w0, uvec4 w1, uvec4 w2)

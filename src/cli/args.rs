@@ -226,7 +226,7 @@ pub enum Fetch {
 #[derive(Debug, ClapArgs)]
 #[command(after_help = RENDER_HELP)]
 pub struct RenderArgs {
-    /// The scene: a TOML file, a glTF model (.gltf, .glb), or a .pbrt file of pbrt-v4
+    /// The scene: a TOML file, a model (.gltf, .glb, .obj), or a .pbrt file of pbrt-v4
     pub scene: PathBuf,
     /// The picture: .png (sRGB) or .exr (linear, all planes); default: name of the scene with .png, in this folder
     #[arg(short, long, value_name = "FILE")]
@@ -318,7 +318,7 @@ pub struct DevicesArgs {
 /// `dapple check`.
 #[derive(Debug, ClapArgs)]
 pub struct CheckArgs {
-    /// The scene: a TOML file, a glTF model (.gltf, .glb), or a .pbrt file of pbrt-v4
+    /// The scene: a TOML file, a model (.gltf, .glb, .obj), or a .pbrt file of pbrt-v4
     pub scene: PathBuf,
     /// Change a key of the scene, such as render.max_depth=3; may be given several times
     #[arg(long, value_name = "key=value", value_parser = parse::setting)]

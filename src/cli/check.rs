@@ -5,7 +5,7 @@ use super::console::Console;
 use super::devices::bytes_text;
 use super::job::strictly;
 use dapple::Result;
-use dapple::import::{ModelContents, Warning, is_model, model_contents, read_scene_showing};
+use dapple::import::{ModelContents, Warning, is_gltf, model_contents, read_scene_showing};
 use dapple::layout::Backend;
 use dapple::prepare::{self, Prepared, Stage};
 use dapple::render;
@@ -111,7 +111,7 @@ pub fn run(args: &CheckArgs, console: &mut Console) -> Result<()> {
     let prepared = prepare::prepare(&scene)?;
     compile_own_textures(&scene, &prepared)?;
     let mut contents = Contents::of(&scene, &prepared, &warnings);
-    if is_model(&args.scene) {
+    if is_gltf(&args.scene) {
         contents.model = Some(model_contents(&args.scene)?.into());
     }
     if args.json {

@@ -24,7 +24,7 @@ pub trait Assets {
     /// When the file cannot be read or is no mesh.
     fn mesh(&mut self, path: &Path) -> Result<Mesh>;
 
-    /// Reads a glTF model into a scene.
+    /// Reads a model into a scene.
     ///
     /// # Errors
     /// When the file cannot be read or is no model.

@@ -1,7 +1,7 @@
 //! Whole files in memory.
 
 use crate::{Error, Result};
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 /// Reads a file. Only regular files are read: a device or a pipe could go on for ever.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
@@ -15,6 +15,13 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
         return Err(Error::scene("this is not a regular file").help("name a file").in_file(path));
     }
     std::fs::read(path).map_err(failed)
+}
+
+/// A file name that stays in the folder that it is relative to; none for another.
+pub(super) fn inside(name: &str) -> Option<PathBuf> {
+    let path = Path::new(name);
+    let stays = path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    (stays && !name.is_empty() && !name.contains('\0')).then(|| path.to_path_buf())
 }
 
 /// Bytes of a file for a message: at most 40 characters, without any that control a terminal.

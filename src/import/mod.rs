@@ -9,7 +9,11 @@ mod gltf;
 mod image;
 mod lens;
 mod mesh;
+mod model;
+mod mtl;
+mod mtl_material;
 mod obj;
+mod obj_model;
 mod pbrt;
 mod ply;
 mod ply_header;
@@ -21,13 +25,12 @@ mod toml;
 mod volume;
 mod warning;
 
-pub use self::gltf::{
-    Model, ModelCamera, ModelChoice, ModelContents, is_model, model_contents, read_gltf_mesh, read_model,
-};
+pub use self::gltf::{Model, ModelCamera, ModelChoice, ModelContents, model_contents, read_gltf_mesh};
 pub use assets::Assets;
 pub use image::read_image;
 pub use lens::{Spacing, read_lens};
 pub use mesh::read_mesh;
+pub use model::{is_gltf, is_model, read_model};
 pub use obj::read_obj;
 pub use ply::read_ply;
 pub use volume::read_volume;
@@ -55,11 +58,11 @@ impl Assets for Files {
 }
 
 /// Reads a scene file and everything that it names: a scene of pbrt-v4 when its name ends in `.pbrt`, one instance of a model when it
-/// ends in `.gltf` or `.glb`, else TOML. `overrides` are key and value as in `--set key=value`.
+/// ends in `.gltf`, `.glb` or `.obj`, else TOML. `overrides` are key and value as in `--set key=value`.
 ///
 /// # Errors
 /// The first thing that is wrong, with file, line and column, or with file and JSON pointer. `scenes/README.md` describes the
-/// language, `scenes/pbrt.md` and `scenes/gltf.md` what is read of the others.
+/// language, `scenes/pbrt.md`, `scenes/gltf.md` and `scenes/obj.md` what is read of the others.
 pub fn read_scene(path: &Path, overrides: &[(String, String)]) -> Result<(Scene, Vec<Warning>)> {
     read_scene_showing(path, overrides, &ModelChoice::default())
 }

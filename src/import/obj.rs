@@ -15,7 +15,7 @@ use std::path::Path;
 /// Reads the faces of an OBJ file as triangles.
 ///
 /// * Each run of faces with one `usemtl` name is a part of that name; faces without one are named by the last `g`
-///   or `o`. Material files are not read.
+///   or `o`. Material files are not read here, but with the file as a [model](super::read_model).
 /// * Corners with the same indices share a vertex; all others have vertices of their own.
 /// * Normals are kept, with unit length, only if every corner has one; texture coordinates likewise.
 /// * A position may have a colour, `v x y z r g b`, in sRGB from 0 to 1, as Blender writes it, and alpha behind it. Where one has, those
@@ -28,6 +28,21 @@ use std::path::Path;
 /// precision, faces with less than three corners, index 0, and indices beyond what has been read so far. Without:
 /// a file that cannot be read or has no face.
 pub fn read_obj(path: &Path) -> Result<Mesh> {
+    Ok(read_obj_file(path)?.mesh)
+}
+
+/// An OBJ file, with what it says of materials.
+#[derive(Debug)]
+pub(super) struct ObjFile {
+    pub mesh: Mesh,
+    /// Line and text of each `mtllib`.
+    pub libraries: Vec<(u32, String)>,
+    /// For each part of the mesh, whether `usemtl` has named it.
+    pub wears: Vec<bool>,
+}
+
+/// The same with that.
+pub(super) fn read_obj_file(path: &Path) -> Result<ObjFile> {
     let bytes = read_bytes(path)?;
     parse(&bytes).map_err(|(line, error)| error.at(path, line, 0))
 }
@@ -55,15 +70,20 @@ struct Reader {
     /// Names that apply to the next face.
     material: Option<String>,
     group: String,
+    wears: Vec<bool>,
+    libraries: Vec<(u32, String)>,
+    /// Line that is being read.
+    number: u32,
     /// Vertices of the face being read.
     polygon: Vec<u32>,
 }
 
-fn parse(bytes: &[u8]) -> LineResult<Mesh> {
+fn parse(bytes: &[u8]) -> LineResult<ObjFile> {
     let mut reader = Reader::default();
     let mut joined = Vec::new();
     for (i, line) in bytes.split(|&b| b == b'\n').enumerate() {
         let number = u32::try_from(i + 1).unwrap_or(u32::MAX);
+        reader.number = number;
         let line = line.strip_suffix(b"\r").unwrap_or(line);
         // A backslash at the end continues the line.
         if let Some(start) = line.strip_suffix(b"\\") {
@@ -116,6 +136,7 @@ impl Reader {
             }
             b"f" | b"fo" => self.face(rest)?,
             b"g" | b"o" => self.group = name(rest),
+            b"mtllib" => self.libraries.push((self.number, name(rest))),
             b"usemtl" => self.material = Some(name(rest)).filter(|name| !name.is_empty()),
             _ => {}
         }
@@ -138,9 +159,15 @@ impl Reader {
         self.polygon = polygon;
         let range = count_u32(first, "triangles")?..count_u32(self.mesh.triangles.len(), "triangles")?;
         let name = self.material.as_ref().unwrap_or(&self.group);
+        let wears = self.material.is_some();
         match self.mesh.parts.last_mut() {
-            Some(part) if part.name == *name => part.triangles.end = range.end,
-            _ => self.mesh.parts.push(MeshPart { name: name.clone(), triangles: range, material: None }),
+            Some(part) if part.name == *name && self.wears.last() == Some(&wears) => {
+                part.triangles.end = range.end;
+            }
+            _ => {
+                self.mesh.parts.push(MeshPart { name: name.clone(), triangles: range, material: None });
+                self.wears.push(wears);
+            }
         }
         Ok(())
     }
@@ -191,7 +218,7 @@ impl Reader {
         Ok(vertex)
     }
 
-    fn finish(self) -> Result<Mesh> {
+    fn finish(self) -> Result<ObjFile> {
         let mut mesh = self.mesh;
         if mesh.triangles.is_empty() {
             return Err(Error::scene("the mesh has no triangles").help("export it with its faces"));
@@ -206,7 +233,7 @@ impl Reader {
             mesh.normals = Vec::new();
         }
         normalize_normals(&mut mesh);
-        Ok(mesh)
+        Ok(ObjFile { mesh, libraries: self.libraries, wears: self.wears })
     }
 }
 

@@ -2,7 +2,7 @@ use super::*;
 use proptest::prelude::*;
 
 fn ok(text: &str) -> Mesh {
-    parse(text.as_bytes()).unwrap()
+    parse(text.as_bytes()).unwrap().mesh
 }
 
 fn error(text: &str) -> String {
@@ -101,7 +101,7 @@ fn errors_name_the_line_and_the_thing() {
 proptest! {
     #[test]
     fn any_text_gives_a_sound_mesh_or_an_error(text in "([vf]|vt|vn|o|usemtl|[-0-9./ ]{1,9}|[\n\\\\]|[ -~]){0,80}") {
-        if let Ok(mesh) = parse(text.as_bytes()) {
+        if let Ok(ObjFile { mesh, .. }) = parse(text.as_bytes()) {
             prop_assert!(mesh.triangles.iter().flatten().all(|&v| (v as usize) < mesh.positions.len()));
         }
     }
@@ -116,7 +116,7 @@ proptest! {
         let mut bytes = format!("{CORNERS}vt 0 0\nvn 0 0 2\nf 1/1/1 2/1/1 3/1/1 -1/-1/-1\nusemtl b\nf 1 2 3\n").into_bytes();
         let at = at % bytes.len();
         bytes[at] = byte;
-        if let Ok(mesh) = parse(&bytes) {
+        if let Ok(ObjFile { mesh, .. }) = parse(&bytes) {
             prop_assert!(mesh.triangles.iter().flatten().all(|&v| (v as usize) < mesh.positions.len()));
             prop_assert!(mesh.normals.is_empty() || mesh.normals.len() == mesh.positions.len());
         }

@@ -99,6 +99,8 @@ constants! {
     CHILD_MARK_SHIFT = 24;
     /// Bit of the number of a triangle within its mesh: rays may go through it.
     PRIMITIVE_LETS_THROUGH = 1 << 31;
+    /// Bit of the number of a triangle within its mesh: it is not there from behind.
+    PRIMITIVE_FRONT_ONLY = 1 << 30;
     /// Instance kind: triangles in object space.
     INSTANCE_MESH = 0;
     /// Instance kind: all triangles that are placed once, in world space.

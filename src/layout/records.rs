@@ -163,7 +163,7 @@ records! {
         material: u32,
         /// third vertex
         c: [f32; 3],
-        /// number of the triangle within its mesh, and the bit PRIMITIVE_LETS_THROUGH
+        /// number of the triangle within its mesh, and one of the bits PRIMITIVE_LETS_THROUGH and PRIMITIVE_FRONT_ONLY
         primitive: u32,
     }
 

@@ -5,11 +5,11 @@ use super::textures::References;
 use crate::layout::{
     DERIVATIVE_BILINEAR, DERIVATIVE_CENTRAL, DERIVATIVE_FORWARD, DERIVATIVE_KERNEL, DETAIL_CURVATURE,
     DETAIL_FRONT_ONLY, DETAIL_GREEN_DOWN, DETAIL_HEIGHT_UV1, DETAIL_NORMAL_UV1, DETAIL_SOFT_TERMINATOR,
-    DETAIL_VERTEX_TANGENTS, DETAIL_VISIBLE, Detail, NONE,
+    DETAIL_VERTEX_TANGENTS, DETAIL_VISIBLE, Detail, NONE, PRIMITIVE_FRONT_ONLY, PRIMITIVE_LETS_THROUGH,
 };
 use crate::scene::{
-    self, Bump, Derivative, Handle, Image, MappingKind, Material, Mesh, NormalMap, Scene, Sides, Tangents,
-    Texture, Value,
+    self, Bump, Derivative, Handle, Image, Instance, MappingKind, Material, Mesh, NormalMap, Scene, Sides,
+    Tangents, Texture, Value,
 };
 use glam::{DAffine2, DMat2, DVec2, Vec3};
 
@@ -21,7 +21,8 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
     for (_, _, material) in scene.materials.iter() {
         let detail = &material.detail;
         let opacity = &detail.opacity;
-        out.features.opacity |= !detail.stops_all();
+        out.features.opacity |= !opacity.is_whole();
+        out.features.front_only |= detail.sides == Sides::Front;
         out.features.filter |= !opacity.is_whole() && opacity.filter != Value::Constant(Vec3::ONE);
         out.features.bump |= detail.bump.is_some();
         out.features.normal_map |= detail.normal_map.is_some();
@@ -29,6 +30,19 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
         out.features.footprint |= detail.bump.is_some() && record.derivative == DERIVATIVE_CENTRAL;
         out.details.push(record);
     }
+    out.features.opacity |= out.features.front_only && sides_are_mixed(scene);
+}
+
+/// Whether a shape has a front alone, or a mesh in one place and not in another: there the triangles cannot tell.
+fn sides_are_mixed(scene: &Scene) -> bool {
+    let sides = |material: Handle<Material>| scene.materials[material].detail.sides;
+    let mut of_meshes = vec![None; scene.meshes.len()];
+    let mut mixed = |instance: &Instance| {
+        let own = sides(instance.material);
+        *of_meshes[instance.mesh.index()].get_or_insert(own) != own
+    };
+    scene.shapes.iter().any(|shape| sides(shape.material) == Sides::Front)
+        || scene.instances.iter().any(&mut mixed)
 }
 
 fn record(scene: &Scene, detail: &scene::Detail, textures: &References) -> Detail {
@@ -129,19 +143,27 @@ pub(super) fn is_on_uv1(scene: &Scene, texture: Handle<Texture>) -> bool {
     first_picture(scene, texture).unwrap_or(false)
 }
 
-/// Which triangles of a mesh rays may go through, when it is placed with some materials; empty when none.
-pub(super) fn lets_through(
+/// What the numbers of the triangles of a mesh are marked with, when it is placed with some materials; empty when none is marked.
+pub(super) fn marks(
     scene: &Scene,
     mesh: &Mesh,
     placed_with: impl IntoIterator<Item = Handle<Material>>,
-) -> Vec<bool> {
-    let open = |material: Handle<Material>| !scene.materials[material].detail.stops_all();
-    let rest = placed_with.into_iter().map(open).fold(false, |any, open| any | open);
+) -> Vec<u32> {
+    let mark = |material: Handle<Material>| {
+        let detail = &scene.materials[material].detail;
+        match detail.sides {
+            _ if !detail.opacity.is_whole() => PRIMITIVE_LETS_THROUGH,
+            Sides::Front => PRIMITIVE_FRONT_ONLY,
+            Sides::Both => 0,
+        }
+    };
+    let both = |a: u32, b: u32| if a == b { a } else { PRIMITIVE_LETS_THROUGH };
+    let rest = placed_with.into_iter().map(mark).reduce(both).unwrap_or(0);
     let parts = mesh.parts.iter().filter_map(|part| part.material);
-    if !rest && !parts.into_iter().any(open) {
+    if rest == 0 && parts.into_iter().all(|material| mark(material) == 0) {
         return Vec::new();
     }
     let own = super::triangles::part_materials(mesh);
-    let of = |i: usize| own.get(i).copied().flatten().map_or(rest, open);
+    let of = |i: usize| own.get(i).copied().flatten().map_or(rest, mark);
     (0..mesh.triangles.len()).map(of).collect()
 }

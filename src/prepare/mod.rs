@@ -187,6 +187,8 @@ pub struct Features {
     pub mix_depth: u32,
     /// Surfaces that let rays through.
     pub opacity: bool,
+    /// Triangles that are not there from behind.
+    pub front_only: bool,
     /// Surfaces that colour what they let through.
     pub filter: bool,
     /// Bumps.

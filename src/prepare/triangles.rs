@@ -1,17 +1,17 @@
 //! Meshes to records of triangles, with the shading data of their vertices.
 
-use super::details::lets_through;
+use super::details;
 use super::tangents::{self, CornerTangents};
 use super::{Prepared, corners};
-use crate::layout::{Face, NONE, PRIMITIVE_LETS_THROUGH, Triangle, Vertex};
+use crate::layout::{Face, NONE, Triangle, Vertex};
 use crate::scene::{Handle, Material, Mesh, Scene};
 use glam::{Affine3A, Mat3A, Vec2, Vec3};
 
 /// What triangles are made of beside their mesh.
 #[derive(Default)]
 pub(super) struct Extras {
-    /// Which triangles rays may go through; empty when none.
-    pub lets_through: Vec<bool>,
+    /// Marks of the triangles; empty when none has one.
+    pub marks: Vec<u32>,
     /// Tangents of the corners, where a normal map wants them.
     pub tangents: Option<CornerTangents>,
 }
@@ -24,7 +24,7 @@ impl Extras {
         placed_with: impl IntoIterator<Item = Handle<Material>> + Clone,
     ) -> Self {
         Self {
-            lets_through: lets_through(scene, mesh, placed_with.clone()),
+            marks: details::marks(scene, mesh, placed_with.clone()),
             tangents: tangents::of(scene, mesh, placed_with),
         }
     }
@@ -66,14 +66,14 @@ pub(super) fn push_triangles(
             }
             out.faces.push(Face { vertices: vertices.map(|v| first_vertex + v), extra });
         }
-        let through = if extras.lets_through.get(i) == Some(&true) { PRIMITIVE_LETS_THROUGH } else { 0 };
+        let mark = extras.marks.get(i).copied().unwrap_or(0);
         triangles.push(Triangle {
             a: position(a),
             instance: instance.unwrap_or(NONE),
             b: position(b),
             material: materials.get(i).copied().flatten().map_or(NONE, |material| material.index() as u32),
             c: position(c),
-            primitive: i as u32 | through,
+            primitive: i as u32 | mark,
         });
     }
     if has_vertices { first_face } else { NONE }

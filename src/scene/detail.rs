@@ -122,10 +122,3 @@ impl Default for Detail {
         }
     }
 }
-
-impl Detail {
-    /// Whether no ray goes straight through.
-    pub fn stops_all(&self) -> bool {
-        self.opacity.is_whole() && self.sides == Sides::Both
-    }
-}

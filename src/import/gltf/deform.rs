@@ -28,8 +28,13 @@ pub(super) fn morph(
                         *tangent += (Vec3::from(by) * weight).extend(0.0);
                     }
                 }
-                "TEXCOORD_0" => move_uvs(&mut vertices.uvs, document.floats::<2>(reference)?, weight),
-                "TEXCOORD_1" => move_uvs(&mut vertices.uvs1, document.floats::<2>(reference)?, weight),
+                "TEXCOORD_0" => slide(&mut vertices.uvs, document.floats::<2>(reference)?, weight),
+                "TEXCOORD_1" => slide(&mut vertices.uvs1, document.floats::<2>(reference)?, weight),
+                "COLOR_0" => {
+                    for (color, by) in vertices.colors.iter_mut().zip(document.colors(reference, 0.0)?) {
+                        *color += by * weight;
+                    }
+                }
                 _ => {}
             }
         }
@@ -37,12 +42,12 @@ pub(super) fn morph(
     Ok(())
 }
 
-fn move_uvs(uvs: &mut [Vec2], by: Vec<[f32; 2]>, weight: f32) {
-    uvs.iter_mut().zip(by).for_each(|(uv, [u, v])| *uv += Vec2::new(u, -v) * weight);
-}
-
 fn add(vectors: &mut [Vec3], by: Vec<[f32; 3]>, weight: f32) {
     vectors.iter_mut().zip(by).for_each(|(vector, by)| *vector += Vec3::from(by) * weight);
+}
+
+fn slide(uvs: &mut [Vec2], by: Vec<[f32; 2]>, weight: f32) {
+    uvs.iter_mut().zip(by).for_each(|(uv, [u, v])| *uv += Vec2::new(u, -v) * weight);
 }
 
 /// From the mesh to the world for each joint of a skin.

@@ -7,6 +7,7 @@ use super::container;
 use super::json::Json;
 use crate::import::file::{read_bytes, shown};
 use crate::{Error, Result};
+use glam::{Vec3, Vec4};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -86,6 +87,15 @@ impl<'a> Document<'a> {
     /// The elements of the accessor that a reference names, as floats.
     pub fn floats<const N: usize>(&self, reference: &Json<'_>) -> Result<Vec<[f32; N]>> {
         self.accessor(reference)?.1.floats(&self.buffers, &self.budget)
+    }
+
+    /// Colours of vertices, or what a morph target adds to them: red, green and blue, and alpha or else `alpha`.
+    pub fn colors(&self, reference: &Json<'_>, alpha: f32) -> Result<Vec<Vec4>> {
+        if self.accessor(reference)?.1.width == 3 {
+            let colors = self.floats::<3>(reference)?;
+            return Ok(colors.into_iter().map(|color| Vec3::from(color).extend(alpha)).collect());
+        }
+        Ok(self.floats::<4>(reference)?.into_iter().map(Vec4::from).collect())
     }
 }
 

@@ -23,10 +23,11 @@ pub fn read_gltf_mesh(path: &Path) -> Result<Mesh> {
             format!("the model has more than {MOST_TRIANGLES} triangles, with its instances one by one");
         return Err(Error::scene(message).help("place it as an [[instance]] with `file`").in_file(path));
     }
-    // A mesh has normals and texture coordinates everywhere or nowhere
+    // A mesh has each attribute everywhere or nowhere
     let any = |has: fn(&Mesh) -> bool| model.instances.iter().any(|i| has(&scene.meshes[i.mesh]));
-    let (normals, uvs) = (any(|mesh| !mesh.normals.is_empty()), any(|mesh| !mesh.uvs.is_empty()));
-    let (uvs1, colors) = (any(|mesh| !mesh.uvs1.is_empty()), any(|mesh| !mesh.colors.is_empty()));
+    let (normals, colors) = (any(|mesh| !mesh.normals.is_empty()), any(|mesh| !mesh.colors.is_empty()));
+    let uvs1 = any(|mesh| !mesh.uvs1.is_empty());
+    let uvs = uvs1 || any(|mesh| !mesh.uvs.is_empty());
     let mut whole = Mesh::default();
     for instance in &model.instances {
         let mesh = &scene.meshes[instance.mesh];
@@ -34,7 +35,7 @@ pub fn read_gltf_mesh(path: &Path) -> Result<Mesh> {
         let mirrored = map.matrix3.determinant() < 0.0;
         let first = whole.positions.len() as u32;
         // A vertex of its own for each corner where the triangles must bring along what they lack
-        let flat = (normals && mesh.normals.is_empty()) || ((uvs || uvs1) && mesh.uvs.is_empty());
+        let flat = (normals && mesh.normals.is_empty()) || (uvs && mesh.uvs.is_empty());
         let vertices: Vec<usize> = if flat {
             mesh.triangles.iter().flatten().map(|corner| *corner as usize).collect()
         } else {
@@ -49,12 +50,12 @@ pub fn read_gltf_mesh(path: &Path) -> Result<Mesh> {
             }));
         }
         const CORNERS: [Vec2; 3] = [Vec2::ZERO, Vec2::X, Vec2::ONE];
-        let first_uv = |(i, v): (usize, &usize)| mesh.uvs.get(*v).copied().unwrap_or(CORNERS[i % 3]);
-        if uvs || uvs1 {
-            whole.uvs.extend(vertices.iter().enumerate().map(first_uv));
+        let uv = |i: usize, v: usize| mesh.uvs.get(v).copied().unwrap_or(CORNERS[i % 3]);
+        if uvs {
+            whole.uvs.extend(vertices.iter().enumerate().map(|(i, v)| uv(i, *v)));
         }
         if uvs1 {
-            let second = |(i, v): (usize, &usize)| mesh.uvs1.get(*v).copied().unwrap_or(first_uv((i, v)));
+            let second = |(i, v): (usize, &usize)| mesh.uvs1.get(*v).copied().unwrap_or_else(|| uv(i, *v));
             whole.uvs1.extend(vertices.iter().enumerate().map(second));
         }
         if colors {

@@ -6,7 +6,7 @@ use super::texture::{VECTOR, number_in};
 use crate::Result;
 use crate::scene::{
     Channel, Detail, Emission, Handle, Material, NormalMap, Opacity, Principled, Roughness, Sides, Surface,
-    Tangents, Texture, Value,
+    Tangents, Value,
 };
 use glam::{Vec3, Vec4};
 
@@ -21,19 +21,23 @@ const LEFT_OUT: [&str; 5] = [
     "KHR_materials_pbrSpecularGlossiness",
 ];
 
-impl Reader<'_> {
-    /// A material of the document, or the default of the specification; `colored`: the colours of vertices are a factor on its base
-    /// colour and its opacity. Each is read once.
+impl<'a> Reader<'a> {
+    /// A material of the document, or the default of the specification, for vertices with colours or without. Each is read once.
     pub fn material(&mut self, index: Option<usize>, colored: bool) -> Result<Handle<Material>> {
         if let Some(known) = self.known_materials.get(&(index, colored)) {
             return Ok(*known);
         }
-        let none = serde_json::Value::Object(serde_json::Map::new());
         let handle = match index {
             None => {
-                let json = Json::root(&none);
-                let material = self.read_material(&json, colored)?;
-                self.scene.materials.add("default material", material)
+                let white = Principled {
+                    base_color: self.dyed(Value::Constant(Vec3::ONE), Channel::Rgb, colored),
+                    metallic: Value::Constant(1.0),
+                    roughness: roughness(Value::Constant(1.0)),
+                    ..Principled::default()
+                };
+                let surface = Surface::Principled(Box::new(white));
+                let detail = Detail { sides: Sides::Front, ..Detail::default() };
+                self.scene.materials.add("default material", Material { surface, emission: None, detail })
             }
             Some(index) => {
                 let json = self.materials[index].clone();
@@ -45,7 +49,7 @@ impl Reader<'_> {
         Ok(handle)
     }
 
-    fn read_material(&mut self, json: &Json<'_>, colored: bool) -> Result<Material> {
+    fn read_material(&mut self, json: &Json<'a>, colored: bool) -> Result<Material> {
         for name in LEFT_OUT {
             if json.extension(name)?.is_some() {
                 self.warn(json, &format!("the material is seen without {name}"));
@@ -53,22 +57,24 @@ impl Reader<'_> {
         }
         let double_sided = json.flag("doubleSided")?;
         let (base_color, opacity) = self.base(json, colored)?;
-        // Light that has come in must get out
-        let transmits = json.extension("KHR_materials_transmission")?.is_some();
-        let sides = if double_sided || transmits { Sides::Both } else { Sides::Front };
-        let detail = Detail { opacity, sides, normal_map: self.normal_map(json)?, ..Detail::default() };
+        let sides = if double_sided { Sides::Both } else { Sides::Front };
+        let mut detail = Detail { opacity, sides, normal_map: self.normal_map(json)?, ..Detail::default() };
         if json.extension("KHR_materials_unlit")?.is_some() {
             return Ok(Material { surface: Surface::Unlit { color: base_color }, emission: None, detail });
         }
         let mut principled = Principled { base_color, ..Principled::default() };
         self.metallic_roughness(json, &mut principled)?;
         self.layers(json, &mut principled)?;
+        if principled.transmission != Value::Constant(0.0) {
+            // Light leaves through what is met from behind
+            detail.sides = Sides::Both;
+        }
         let emission = self.emission(json, double_sided)?;
         Ok(Material { surface: Surface::Principled(Box::new(principled)), emission, detail })
     }
 
-    /// Base colour and opacity.
-    fn base(&mut self, json: &Json<'_>, colored: bool) -> Result<(Value<Vec3>, Opacity)> {
+    /// Base colour and opacity, and colours of vertices as a factor on both.
+    fn base(&mut self, json: &Json<'a>, colored: bool) -> Result<(Value<Vec3>, Opacity)> {
         let (mut factor, mut texture) = (Vec4::ONE, None);
         let pbr = json.get("pbrMetallicRoughness")?;
         let color = match &pbr {
@@ -79,10 +85,7 @@ impl Reader<'_> {
             }
             None => Value::Constant(Vec3::ONE),
         };
-        let color = match colored {
-            true => Value::Texture(self.times_vertex_color(json, color, Channel::Rgb)),
-            false => color,
-        };
+        let color = self.dyed(color, Channel::Rgb, colored);
         let mode = json.get("alphaMode")?;
         let cutoff = match mode.as_ref().map(Json::string).transpose()? {
             None | Some("OPAQUE") => return Ok((color, Opacity::default())),
@@ -94,33 +97,11 @@ impl Reader<'_> {
             Some(info) => self.scaled(&info, number_in(Channel::A), factor.w)?,
             None => Value::Constant(factor.w),
         };
-        let value = match (colored, value) {
-            (false, value) => value,
-            (true, Value::Constant(alpha)) => {
-                Value::Texture(self.times_vertex_color(json, Value::Constant(Vec3::splat(alpha)), Channel::A))
-            }
-            (true, Value::Texture(alpha)) => {
-                Value::Texture(self.times_vertex_color(json, Value::Texture(alpha), Channel::A))
-            }
-        };
+        let value = self.dyed(value, Channel::A, colored);
         Ok((color, Opacity { value, cutoff, ..Opacity::default() }))
     }
 
-    /// A channel of the colours of vertices, with a factor.
-    fn times_vertex_color(
-        &mut self,
-        json: &Json<'_>,
-        factor: Value<Vec3>,
-        channel: Channel,
-    ) -> Handle<Texture> {
-        let colors = self.scene.textures.add("colours of vertices", Texture::VertexColor(channel));
-        if factor == Value::Constant(Vec3::ONE) {
-            return colors;
-        }
-        self.add_texture(json, Texture::Multiply { a: factor, b: Value::Texture(colors) })
-    }
-
-    fn metallic_roughness(&mut self, json: &Json<'_>, principled: &mut Principled) -> Result<()> {
+    fn metallic_roughness(&mut self, json: &Json<'a>, principled: &mut Principled) -> Result<()> {
         let key = "metallicRoughnessTexture";
         (principled.metallic, principled.roughness) = match json.get("pbrMetallicRoughness")? {
             Some(pbr) => (
@@ -132,7 +113,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn normal_map(&mut self, json: &Json<'_>) -> Result<Option<NormalMap>> {
+    fn normal_map(&mut self, json: &Json<'a>) -> Result<Option<NormalMap>> {
         let Some(info) = json.get("normalTexture")? else { return Ok(None) };
         let strength = info.number_or("scale", 1.0)?;
         let texture = self.picture(&info, VECTOR)?;
@@ -141,7 +122,7 @@ impl Reader<'_> {
         Ok(texture.map(map))
     }
 
-    fn emission(&mut self, json: &Json<'_>, two_sided: bool) -> Result<Option<Emission>> {
+    fn emission(&mut self, json: &Json<'a>, two_sided: bool) -> Result<Option<Emission>> {
         let strength = match json.extension("KHR_materials_emissive_strength")? {
             Some(extension) => extension.number_or("emissiveStrength", 1.0)?.max(0.0),
             None => 1.0,
@@ -158,7 +139,7 @@ impl Reader<'_> {
     }
 
     /// What extensions add to the model.
-    fn layers(&mut self, json: &Json<'_>, principled: &mut Principled) -> Result<()> {
+    fn layers(&mut self, json: &Json<'a>, principled: &mut Principled) -> Result<()> {
         if let Some(ior) = json.extension("KHR_materials_ior")? {
             let ior = ior.number_or("ior", 1.5)?;
             principled.ior = Value::Constant(if ior == 0.0 { MAX_INDEX } else { ior.clamp(1.0, MAX_INDEX) });
@@ -189,7 +170,7 @@ impl Reader<'_> {
     }
 
     /// Without a volume, what lets light through is a thin sheet.
-    fn transmission(&mut self, json: &Json<'_>, principled: &mut Principled) -> Result<()> {
+    fn transmission(&mut self, json: &Json<'a>, principled: &mut Principled) -> Result<()> {
         let Some(transmission) = json.extension("KHR_materials_transmission")? else { return Ok(()) };
         let texture = "transmissionTexture";
         principled.transmission =

@@ -9,7 +9,7 @@ use super::reader::Reader;
 use crate::Result;
 use crate::import::mesh::normalize_normals;
 use crate::scene::{Handle, Material, Mesh, MeshPart};
-use glam::Affine3A;
+use glam::{Affine3A, Vec4};
 use std::collections::HashMap;
 
 /// A mesh of the document, whose attributes go together.
@@ -122,7 +122,8 @@ impl<'a> Reader<'a> {
                 mesh.tangents.append(&mut vertices.tangents);
                 mesh.uvs.append(&mut vertices.uvs);
                 mesh.uvs1.append(&mut vertices.uvs1);
-                mesh.colors.append(&mut vertices.colors);
+                // What is outside counts as the nearer end (section 3.7.2.1)
+                mesh.colors.extend(vertices.colors.iter().map(|color| color.clamp(Vec4::ZERO, Vec4::ONE)));
                 group.first.insert(identity, first);
                 first
             }

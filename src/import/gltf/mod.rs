@@ -65,12 +65,6 @@ pub struct Model {
     pub warnings: Vec<String>,
 }
 
-/// Whether the name of a file says that it is a model.
-pub fn is_model(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| ["gltf", "glb"].iter().any(|known| extension.eq_ignore_ascii_case(known)))
-}
-
 /// Reads a `.gltf` or `.glb` file into a scene.
 ///
 /// # Errors

@@ -14,7 +14,7 @@ pub(super) struct Vertices {
     pub tangents: Vec<Vec4>,
     /// v upwards.
     pub uvs: Vec<Vec2>,
-    /// The second set of them.
+    /// The second set.
     pub uvs1: Vec<Vec2>,
     /// Linear, with alpha.
     pub colors: Vec<Vec4>,
@@ -103,8 +103,12 @@ impl<'a> Primitive<'a> {
             Ok(document.floats::<3>(reference)?.into_iter().map(Vec3::from).collect())
         };
         let uvs = |name| -> Result<Vec<Vec2>> {
-            let Some(uvs) = self.attribute(name) else { return Ok(Vec::new()) };
-            Ok(document.floats::<2>(uvs)?.into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect())
+            let Some(reference) = self.attribute(name) else { return Ok(Vec::new()) };
+            Ok(document.floats::<2>(reference)?.into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect())
+        };
+        let colors = match self.attribute("COLOR_0") {
+            Some(colors) => document.colors(colors, 1.0)?,
+            None => Vec::new(),
         };
         let normals = vec3("NORMAL")?;
         let tangents = match self.attribute("TANGENT").filter(|_| !normals.is_empty()) {
@@ -117,18 +121,8 @@ impl<'a> Primitive<'a> {
             tangents,
             uvs: uvs("TEXCOORD_0")?,
             uvs1: uvs("TEXCOORD_1")?,
-            colors: self.colors(document)?,
+            colors,
         })
-    }
-
-    /// Colours without alpha are opaque, and none are below 0.
-    fn colors(&self, document: &Document<'_>) -> Result<Vec<Vec4>> {
-        let Some(reference) = self.attribute("COLOR_0") else { return Ok(Vec::new()) };
-        let colors: Vec<Vec4> = match document.accessor(reference)?.1.width {
-            3 => document.floats::<3>(reference)?.into_iter().map(|c| Vec3::from(c).extend(1.0)).collect(),
-            _ => document.floats::<4>(reference)?.into_iter().map(Vec4::from).collect(),
-        };
-        Ok(colors.into_iter().map(|color| color.max(Vec4::ZERO)).collect())
     }
 
     /// The triangles, whose corners are below [`Self::count`].

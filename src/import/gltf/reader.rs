@@ -22,7 +22,7 @@ pub(super) struct Reader<'a> {
     pub scene: &'a mut Scene,
     /// All materials of the document.
     pub materials: Vec<Json<'a>>,
-    /// Those that are in the scene already, by whether the vertices bring colours; the default is that without a number.
+    /// Those that are in the scene already, with colours of vertices and without; the default is that without a number.
     pub known_materials: BTreeMap<(Option<usize>, bool), Handle<Material>>,
     /// Pictures that are in the scene already.
     pub images: BTreeMap<usize, Handle<Image>>,

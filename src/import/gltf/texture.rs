@@ -5,7 +5,7 @@ use super::json::Json;
 use super::reader::Reader;
 use crate::Result;
 use crate::scene::{
-    Channel, ColorSpace, Handle, Image, ImageTexture, Mapping, TexelFilter, Texels, Texture, UvTransform,
+    Channel, ColorSpace, Handle, ImageTexture, Mapping, MappingKind, TexelFilter, Texture, UvTransform,
     Value, Wrap,
 };
 use glam::{Vec2, Vec3};
@@ -17,10 +17,11 @@ pub(super) struct Part {
     pub channel: Channel,
 }
 
-/// A picture, and whether it lies on a surface by the second set of texture coordinates.
-struct Placed {
-    texture: ImageTexture,
-    second: bool,
+/// Which texture coordinates place a picture.
+#[derive(Debug, Clone, Copy)]
+enum UvSet {
+    First,
+    Second,
 }
 
 /// Colours.
@@ -31,6 +32,29 @@ pub(super) const VECTOR: Part = Part { color_space: ColorSpace::Linear, channel:
 /// A number in one channel.
 pub(super) const fn number_in(channel: Channel) -> Part {
     Part { color_space: ColorSpace::Linear, channel }
+}
+
+/// What can be a factor on a texture.
+pub(super) trait Factor: Copy + PartialEq {
+    const NOTHING: Self;
+    const WHOLE: Self;
+    fn color(self) -> Vec3;
+}
+
+impl Factor for f32 {
+    const NOTHING: Self = 0.0;
+    const WHOLE: Self = 1.0;
+    fn color(self) -> Vec3 {
+        Vec3::splat(self)
+    }
+}
+
+impl Factor for Vec3 {
+    const NOTHING: Self = Vec3::ZERO;
+    const WHOLE: Self = Vec3::ONE;
+    fn color(self) -> Vec3 {
+        self
+    }
 }
 
 impl Reader<'_> {
@@ -50,14 +74,13 @@ impl Reader<'_> {
 
     /// The same for a number that is known.
     pub fn scaled(&mut self, info: &Json<'_>, part: Part, factor: f32) -> Result<Value<f32>> {
-        let Some(placed) = self.image_texture(info, part, factor)? else {
+        let Some((texture, set)) = self.image_texture(info, part, factor)? else {
             return Ok(Value::Constant(factor));
         };
-        let image = &self.scene.images[placed.texture.image];
-        if placed.texture.channel == Channel::A && is_opaque(image) {
+        if texture.channel == Channel::A && self.scene.images[texture.image].is_opaque() {
             return Ok(Value::Constant(factor));
         }
-        Ok(Value::Texture(self.add_picture(info, placed)))
+        Ok(Value::Texture(self.add_picture(info, texture, set)))
     }
 
     /// A colour times a texture of colours, when the object has a texture of that key.
@@ -68,10 +91,10 @@ impl Reader<'_> {
         }
         // A grey factor is one of the picture itself
         let grey = if factor == Vec3::splat(factor.x) { factor.x } else { 1.0 };
-        let Some(placed) = self.image_texture(&info, COLOR, grey)? else {
+        let Some((texture, set)) = self.image_texture(&info, COLOR, grey)? else {
             return Ok(Value::Constant(factor));
         };
-        let picture = Value::Texture(self.add_picture(&info, placed));
+        let picture = Value::Texture(self.add_picture(&info, texture, set));
         if grey != 1.0 || factor == Vec3::ONE {
             return Ok(picture);
         }
@@ -81,34 +104,62 @@ impl Reader<'_> {
 
     /// A texture of its own.
     pub fn picture(&mut self, info: &Json<'_>, part: Part) -> Result<Option<Handle<Texture>>> {
-        let placed = self.image_texture(info, part, 1.0)?;
-        Ok(placed.map(|placed| self.add_picture(info, placed)))
+        let texture = self.image_texture(info, part, 1.0)?;
+        Ok(texture.map(|(texture, set)| self.add_picture(info, texture, set)))
     }
 
-    /// A texture that is named by its place in the document.
-    pub fn add_texture(&mut self, info: &Json<'_>, texture: Texture) -> Handle<Texture> {
+    /// A colour or a number times what vertices have of it, where they have colours.
+    pub fn dyed<T: Factor>(&mut self, value: Value<T>, channel: Channel, colored: bool) -> Value<T> {
+        if !colored || value == Value::Constant(T::NOTHING) {
+            return value;
+        }
+        let textures = &mut self.scene.textures;
+        let dye = textures.add("colours of vertices", Texture::VertexColor(channel));
+        let a = match value {
+            Value::Constant(factor) if factor == T::WHOLE => return Value::Texture(dye),
+            Value::Constant(factor) => Value::Constant(factor.color()),
+            Value::Texture(texture) => Value::Texture(texture),
+        };
+        Value::Texture(textures.add("dyed", Texture::Multiply { a, b: Value::Texture(dye) }))
+    }
+
+    /// Equal textures are one.
+    fn add_texture(&mut self, info: &Json<'_>, texture: Texture) -> Handle<Texture> {
         self.scene.textures.add(info.pointer(), texture)
     }
 
-    fn add_picture(&mut self, info: &Json<'_>, placed: Placed) -> Handle<Texture> {
-        let picture = self.add_texture(info, Texture::Image(placed.texture));
-        if !placed.second {
-            return picture;
+    /// A picture that is placed by a set of texture coordinates.
+    fn add_picture(&mut self, info: &Json<'_>, texture: ImageTexture, set: UvSet) -> Handle<Texture> {
+        let picture = self.add_texture(info, Texture::Image(texture));
+        match set {
+            UvSet::First => picture,
+            UvSet::Second => {
+                let mapping = Mapping::new(MappingKind::Uv1);
+                self.add_texture(info, Texture::Mapped { value: Value::Texture(picture), mapping })
+            }
         }
-        let mapping = Mapping::second_uv();
-        self.add_texture(info, Texture::Mapped { value: Value::Texture(picture), mapping })
     }
 
-    fn image_texture(&mut self, info: &Json<'_>, part: Part, scale: f32) -> Result<Option<Placed>> {
+    /// A picture, and the set of texture coordinates that place it.
+    fn image_texture(
+        &mut self,
+        info: &Json<'_>,
+        part: Part,
+        scale: f32,
+    ) -> Result<Option<(ImageTexture, UvSet)>> {
         let textures = self.document.root.list("textures")?;
         let texture = &textures[index_into(&info.need("index")?, "textures", textures.len())?];
         let (uv, set) = placed(info)?;
-        if set > 1 {
-            self.warn(
-                info,
-                &format!("the texture uses set {set} of texture coordinates, and is shown by set 0"),
-            );
-        }
+        let set = match set {
+            0 => UvSet::First,
+            1 => UvSet::Second,
+            _ => {
+                let message =
+                    format!("the texture uses set {set} of texture coordinates, and is shown by set 0");
+                self.warn(info, &message);
+                UvSet::First
+            }
+        };
         let Some(image) = self.image_of(texture)? else { return Ok(None) };
         let samplers = self.document.root.list("samplers")?;
         let sampler = match texture.get("sampler")? {
@@ -121,7 +172,7 @@ impl Reader<'_> {
         })?;
         let Part { color_space, channel } = part;
         let texture = ImageTexture { image, filter, wrap, uv, color_space, channel, scale, invert: false };
-        Ok(Some(Placed { texture, second: set == 1 }))
+        Ok(Some((texture, set)))
     }
 }
 
@@ -168,14 +219,5 @@ fn wrap(sampler: &Json<'_>, key: &str) -> Result<Wrap> {
         33071 => Ok(Wrap::Clamp),
         33648 => Ok(Wrap::Mirror),
         other => Err(wrap.error(format!("{other} is no way to wrap a texture"))),
-    }
-}
-
-/// Whether alpha is 1 everywhere: surfaces of such a picture stop every ray.
-fn is_opaque(image: &Image) -> bool {
-    match &image.texels {
-        Texels::Rgba8(texels) => texels.iter().all(|texel| texel[3] == u8::MAX),
-        Texels::Rgba16(texels) => texels.iter().all(|texel| texel[3] == u16::MAX),
-        Texels::RgbaF32(texels) => texels.iter().all(|texel| texel[3] >= 1.0),
     }
 }

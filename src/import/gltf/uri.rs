@@ -2,12 +2,12 @@
 
 use super::json::Json;
 use crate::Result;
-use crate::import::file::{read_bytes, shown};
+use crate::import::file::{inside, read_bytes, shown};
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::percent_decode_str;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// Padding may be there or not: both are in use.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -44,10 +44,6 @@ fn relative(uri: &Json<'_>, text: &str) -> Result<PathBuf> {
     if scheme {
         return Err(refuse("is no file name: only files beside the model are read"));
     }
-    let path = Path::new(name.as_ref());
-    let inside = path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-    if name.is_empty() || !inside || name.contains('\0') {
-        return Err(refuse("is not in the folder of the model or below it: other files are not read"));
-    }
-    Ok(path.to_path_buf())
+    inside(&name)
+        .ok_or_else(|| refuse("is not in the folder of the model or below it: other files are not read"))
 }

@@ -1,4 +1,4 @@
-//! `[[instance]]` with a `file`: glTF models as a whole, and what they bring to a scene that lacks camera or lights.
+//! `[[instance]]` with a `file`: models as a whole, and what they bring to a scene that lacks camera or lights.
 
 use super::Warning;
 use super::document::{Data, Entry, Node, Sources, Spot, Table};

@@ -135,6 +135,15 @@ impl Image {
             ColorSpace::Linear => [r, g, b, a],
         }
     }
+
+    /// Whether alpha is 1 everywhere: surfaces of such a picture stop every ray.
+    pub fn is_opaque(&self) -> bool {
+        match &self.texels {
+            Texels::Rgba8(texels) => texels.iter().all(|texel| texel[3] == u8::MAX),
+            Texels::Rgba16(texels) => texels.iter().all(|texel| texel[3] == u16::MAX),
+            Texels::RgbaF32(texels) => texels.iter().all(|texel| texel[3] >= 1.0),
+        }
+    }
 }
 
 /// IEC 61966-2-1.

@@ -48,10 +48,10 @@ pub struct Mapping {
 }
 
 impl Mapping {
-    /// The second set of texture coordinates.
-    pub fn second_uv() -> Self {
+    /// In object space, as it is there, without a faded seam and with weights of a middle sharpness.
+    pub fn new(kind: MappingKind) -> Self {
         Self {
-            kind: MappingKind::Uv1,
+            kind,
             space: MappingSpace::Object,
             mapping_from_space: Affine3A::IDENTITY,
             pole_u: 0.0,

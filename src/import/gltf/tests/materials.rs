@@ -1,7 +1,7 @@
 //! What materials become.
 
 use super::*;
-use crate::scene::{Channel, Emission, Roughness, Texture, Value};
+use crate::scene::{Channel, Emission, Roughness, Sides, Texture, Value};
 use glam::Vec3;
 use serde_json::Value as Json;
 
@@ -23,6 +23,7 @@ fn the_default_material_is_that_of_the_specification() {
         let rough = Value::Constant(1.0);
         assert_eq!(found.roughness, Roughness { u: rough, v: rough, squared: true });
         assert!(material.emission.is_none() && material.detail.opacity.is_whole());
+        assert_eq!(material.detail.sides, Sides::Front);
     }
 }
 
@@ -94,6 +95,55 @@ fn alpha_modes_become_opacity() {
     );
     let error = Maker::with_material(json!({ "alphaMode": "GLASS" })).error();
     assert_eq!(error, "/materials/0: `alphaMode` is none of OPAQUE, MASK and BLEND");
+}
+
+#[test]
+fn what_is_not_double_sided_has_a_front_alone_unless_light_goes_through() {
+    let sides = |material: Json| {
+        let read = Maker::with_material(material).read().unwrap();
+        only_material(&read).detail.sides
+    };
+    let transmission =
+        |factor: f32| json!({ "KHR_materials_transmission": { "transmissionFactor": factor } });
+    assert_eq!(sides(json!({ "doubleSided": true })), Sides::Both);
+    assert_eq!(sides(json!({ "doubleSided": false, "alphaMode": "BLEND" })), Sides::Front);
+    assert_eq!(sides(json!({ "extensions": { "KHR_materials_unlit": {} } })), Sides::Front);
+    assert_eq!(
+        sides(json!({ "doubleSided": true, "extensions": { "KHR_materials_unlit": {} } })),
+        Sides::Both
+    );
+    assert_eq!(sides(json!({ "extensions": transmission(0.0) })), Sides::Front);
+    assert_eq!(sides(json!({ "extensions": transmission(0.5) })), Sides::Both);
+}
+
+#[test]
+fn colours_of_vertices_are_a_factor_on_the_materials_of_those_that_have_them() {
+    let mut maker = Maker::with_material(json!({
+        "alphaMode": "BLEND", "pbrMetallicRoughness": { "baseColorFactor": [0.1, 0.2, 0.3, 0.4] },
+    }));
+    let colors = maker.floats(&[[1.0, 0.0, 0.0]; 3]);
+    let dyed = json!({ "attributes": { "POSITION": 0, "COLOR_0": colors }, "material": 0 });
+    let plain = json!({ "attributes": { "POSITION": 0, "COLOR_0": colors } });
+    let primitives = maker.root["meshes"][0]["primitives"].as_array_mut().unwrap();
+    primitives.extend([dyed.clone(), dyed, plain]);
+    let (scene, model) = maker.read().unwrap();
+    assert_eq!(scene.materials.len(), 3, "one as it is, and that and the default with colours");
+    assert_eq!(model.instances.len(), 2);
+    let parts = |i: usize| &scene.meshes[model.instances[i].mesh].parts;
+    let material = |i: usize, part: usize| &scene.materials[parts(i)[part].material.unwrap()];
+    assert_eq!(principled(material(0, 0)).base_color, constant(0.1, 0.2, 0.3));
+    assert_eq!(material(0, 0).detail.opacity.value, Value::Constant(0.4));
+    assert_eq!(parts(1)[0].material, parts(1)[1].material);
+    let texture = |texture: Option<crate::scene::Handle<Texture>>| scene.textures[texture.unwrap()].clone();
+    let product = |found: Texture, channel: Channel, factor: Value<Vec3>| {
+        let Texture::Multiply { a, b } = found else { panic!("{found:?}") };
+        assert_eq!((a, texture(b.texture())), (factor, Texture::VertexColor(channel)));
+    };
+    let dyed = material(1, 0);
+    product(texture(principled(dyed).base_color.texture()), Channel::Rgb, constant(0.1, 0.2, 0.3));
+    product(texture(dyed.detail.opacity.value.texture()), Channel::A, constant(0.4, 0.4, 0.4));
+    let white = principled(material(1, 2)).base_color.texture();
+    assert_eq!(texture(white), Texture::VertexColor(Channel::Rgb));
 }
 
 #[test]

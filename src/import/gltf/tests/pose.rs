@@ -1,7 +1,7 @@
 //! Animations, morph targets and skins, with known places at a time.
 
 use super::*;
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3, Vec4};
 use std::f32::consts::FRAC_PI_2;
 
 /// A triangle whose node is animated along one path.
@@ -88,6 +88,25 @@ fn morph_targets_move_vertices_by_their_weights() {
     // Those of the node come before those of the mesh
     maker.root["nodes"][0]["weights"] = json!([0.0, 1.0]);
     assert_eq!(only_mesh(&maker.read().unwrap()).positions[1], Vec3::new(5.0, 0.0, 0.0));
+}
+
+#[test]
+fn morph_targets_move_both_sets_of_coordinates_and_colours() {
+    let mut maker = Maker::triangle();
+    let second = maker.floats(&[[0.25, 0.25]; 3]);
+    let colors = maker.floats(&[[0.5, 0.5, 0.5, 0.5]; 3]);
+    let by = maker.floats(&[[0.5, 0.5]; 3]);
+    let dye = maker.floats(&[[0.5, -0.25, 4.0]; 3]);
+    let primitive = &mut maker.root["meshes"][0]["primitives"][0];
+    primitive["attributes"]["TEXCOORD_1"] = json!(second);
+    primitive["attributes"]["COLOR_0"] = json!(colors);
+    primitive["targets"] = json!([{ "TEXCOORD_0": by, "TEXCOORD_1": by, "COLOR_0": dye }]);
+    maker.root["meshes"][0]["weights"] = json!([0.5]);
+    let read = maker.read().unwrap();
+    let mesh = only_mesh(&read);
+    // v runs upwards
+    assert_eq!((mesh.uvs[0], mesh.uvs1[0]), (Vec2::new(0.25, -0.25), Vec2::new(0.5, 0.5)));
+    assert_eq!(mesh.colors[0], Vec4::new(0.75, 0.375, 1.0, 0.5));
 }
 
 /// A triangle that hangs on two joints: the first vertex on node 1, the second on node 2, the third on both.

@@ -1,8 +1,7 @@
 //! Triangles of all modes, and vertices of meshes with several primitives.
 
 use super::*;
-use crate::scene::{Channel, Sides, Texture, Value as Input};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
 /// Triangles of a primitive of five vertices in a row.
 fn triangles(mode: Option<u32>, indices: Option<(u32, &[u32])>) -> Vec<[u32; 3]> {
@@ -106,44 +105,51 @@ fn quantized_attributes_are_numbers_of_their_own() {
 }
 
 #[test]
-fn colours_of_vertices_are_a_factor_on_base_colour_and_opacity() {
-    let mut maker = Maker::triangle();
-    let (colors, uvs) = (maker.floats(&[[1.0, 0.5, -1.0]; 3]), maker.floats(&[[0.25, 0.25]; 3]));
-    let attributes = &mut maker.root["meshes"][0]["primitives"][0]["attributes"];
-    attributes["COLOR_0"] = json!(colors);
-    attributes["TEXCOORD_1"] = json!(uvs);
-    maker.root.insert(
-        "materials".into(),
-        json!([{ "alphaMode": "BLEND", "pbrMetallicRoughness": { "baseColorFactor": [1, 1, 1, 0.5] } }]),
+fn colours_of_vertices_have_alpha_1_where_they_have_none() {
+    let colors = |kind: &str, component: u32, bytes: &[u8]| {
+        let mut maker = Maker::triangle();
+        let colors = maker.accessor(kind, component, 3, bytes);
+        maker.root["accessors"][colors]["normalized"] = json!(component != F32);
+        maker.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
+        only_mesh(&maker.read().unwrap()).colors.clone()
+    };
+    let bytes = |numbers: &[f32]| numbers.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let (half, clear) = (Vec4::new(0.5, 0.25, 0.0, 1.0), Vec4::new(0.5, 0.25, 0.0, 0.75));
+    assert_eq!(colors("VEC3", F32, &bytes(&[0.5, 0.25, 0.0].repeat(3))), [half; 3]);
+    assert_eq!(colors("VEC4", F32, &bytes(&[0.5, 0.25, 0.0, 0.75].repeat(3))), [clear; 3]);
+    assert_eq!(
+        colors("VEC4", F32, &bytes(&[7.0, -1.0, 0.0, 1.5].repeat(3))),
+        [Vec4::new(1.0, 0.0, 0.0, 1.0); 3]
     );
-    maker.root["meshes"][0]["primitives"][0]["material"] = json!(0);
-    let read = maker.read().unwrap();
-    // RGB is opaque, and nothing is below 0
-    assert_eq!(only_mesh(&read).colors, [glam::Vec4::new(1.0, 0.5, 0.0, 1.0); 3]);
-    assert_eq!(only_mesh(&read).uvs1, [Vec2::new(0.25, 0.75); 3]);
-    let (_, _, material) = read.0.materials.iter().next().unwrap();
-    let Surface::Principled(principled) = &material.surface else { panic!("{material:?}") };
-    let base = &read.0.textures[principled.base_color.texture().unwrap()];
-    assert_eq!(*base, Texture::VertexColor(Channel::Rgb));
-    let Input::Texture(opacity) = material.detail.opacity.value else { panic!("{material:?}") };
-    let Texture::Multiply { a, b } = &read.0.textures[opacity] else { panic!("no product") };
-    assert_eq!(*a, Input::Constant(Vec3::splat(0.5)));
-    assert_eq!(read.0.textures[b.texture().unwrap()], Texture::VertexColor(Channel::A));
-    assert!(read.1.warnings.is_empty());
+    // Linear, and not by the curve of sRGB; a number times 1 / 255 is rounded twice
+    let words: Vec<u8> =
+        [13107_u16, 65535, 0, 26214].repeat(3).iter().flat_map(|x| x.to_le_bytes()).collect();
+    for (component, bytes) in [(U8, [51, 255, 0, 102].repeat(3)), (U16, words)] {
+        let found = colors("VEC4", component, &bytes);
+        assert!(
+            found.iter().all(|color| color.abs_diff_eq(Vec4::new(0.2, 1.0, 0.0, 0.4), 1e-7)),
+            "{found:?}"
+        );
+    }
 }
 
 #[test]
-fn what_is_not_double_sided_has_a_front_alone() {
-    let sides = |material: serde_json::Value| {
-        let mut maker = Maker::triangle();
-        maker.root.insert("materials".into(), json!([material]));
-        maker.root["meshes"][0]["primitives"][0]["material"] = json!(0);
-        maker.read().unwrap().0.materials.iter().next().unwrap().2.detail.sides
-    };
-    assert_eq!(sides(json!({})), Sides::Front);
-    assert_eq!(sides(json!({ "doubleSided": true })), Sides::Both);
-    let glass = json!({ "KHR_materials_transmission": { "transmissionFactor": 1 } });
-    assert_eq!(sides(json!({ "extensions": glass })), Sides::Both);
+fn a_model_as_one_mesh_has_white_and_the_first_set_where_a_part_has_nothing_else() {
+    let mut maker = Maker::triangle();
+    let colors = maker.floats(&[[1.0, 0.0, 0.0]; 3]);
+    let second = maker.floats(&[[0.5, 0.25]; 3]);
+    let attributes = json!({ "POSITION": 0, "TEXCOORD_0": 1, "TEXCOORD_1": second, "COLOR_0": colors });
+    let primitives = maker.root["meshes"][0]["primitives"].as_array_mut().unwrap();
+    primitives.push(json!({ "attributes": attributes }));
+    primitives.push(json!({ "attributes": { "POSITION": 0 } }));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.glb");
+    std::fs::write(&path, maker.glb()).unwrap();
+    let mesh = super::super::read_gltf_mesh(&path).unwrap();
+    let (red, set) = (Vec4::new(1.0, 0.0, 0.0, 1.0), [Vec2::ZERO, Vec2::X, Vec2::Y]);
+    assert_eq!(mesh.colors, [[Vec4::ONE; 3], [red; 3], [Vec4::ONE; 3]].concat());
+    assert_eq!(mesh.uvs, [set, set, [Vec2::ZERO, Vec2::X, Vec2::ONE]].concat());
+    assert_eq!(mesh.uvs1, [set, [Vec2::new(0.5, 0.75); 3], [Vec2::ZERO, Vec2::X, Vec2::ONE]].concat());
 }
 
 #[test]

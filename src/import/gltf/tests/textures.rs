@@ -1,7 +1,7 @@
 //! Pictures, samplers and where pictures are on surfaces.
 
 use super::*;
-use crate::scene::{ImageTexture, TexelFilter, Texels, Texture, Value, Wrap};
+use crate::scene::{ImageTexture, MappingKind, TexelFilter, Texels, Texture, Value, Wrap};
 use base64::Engine;
 use glam::Vec2;
 use image::{ColorType, ImageEncoder};
@@ -64,6 +64,37 @@ fn transforms_of_textures_hold_when_v_runs_upwards() {
             );
         }
     }
+}
+
+#[test]
+fn textures_are_placed_by_either_set_of_coordinates() {
+    let found = |info: serde_json::Value| {
+        let mut maker = Maker::with_material(json!({ "normalTexture": info }));
+        add_picture(&mut maker);
+        let (scene, model) = maker.read().unwrap();
+        let map = scene.materials[model.instances[0].material].detail.normal_map.unwrap();
+        (scene.textures[map.texture].clone(), model.warnings)
+    };
+    let second = |texture: Texture| match texture {
+        Texture::Mapped { mapping, .. } => mapping.kind == MappingKind::Uv1,
+        Texture::Image(_) => false,
+        other => panic!("{other:?}"),
+    };
+    let moved = |set: u32| json!({ "KHR_texture_transform": { "texCoord": set } });
+    for (info, expected) in [
+        (json!({ "index": 0, "texCoord": 0 }), false),
+        (json!({ "index": 0, "texCoord": 1 }), true),
+        (json!({ "index": 0, "texCoord": 0, "extensions": moved(1) }), true),
+        (json!({ "index": 0, "texCoord": 1, "extensions": moved(0) }), false),
+    ] {
+        let (texture, warnings) = found(info);
+        assert_eq!((second(texture), warnings.len()), (expected, 0));
+    }
+    let (texture, warnings) = found(json!({ "index": 0, "texCoord": 2 }));
+    let expected =
+        "/materials/0/normalTexture: the texture uses set 2 of texture coordinates, and is shown by set 0";
+    assert!(!second(texture));
+    assert_eq!(warnings, [expected]);
 }
 
 #[test]
