@@ -12,7 +12,7 @@ const MOST_TRIANGLES: usize = 1 << 24;
 /// Reads a `.gltf` or `.glb` file as a mesh in the space of the model: all that its scene places, without animation.
 ///
 /// # Errors
-/// All errors of [`read_model`], and a model of more than 2²⁴ triangles.
+/// All errors of [`crate::import::read_model`], and a model of more than 2²⁴ triangles.
 pub fn read_gltf_mesh(path: &Path) -> Result<Mesh> {
     let mut scene = Scene::default();
     let model = read_model(path, &ModelChoice::default(), &mut scene)?;
