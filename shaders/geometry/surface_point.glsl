@@ -1,4 +1,4 @@
-// A point on a surface as shading sees it. Switches of the variant: HAS_VERTEX_COLOR, HAS_UV1.
+// A point on a surface as shading sees it. Switches of the variant: HAS_VERTEX_COLOR, HAS_UV1, HAS_FRONT_ONLY.
 
 struct Surface {
     vec3 position;        // world space
@@ -9,6 +9,9 @@ struct Surface {
     vec3 object_normal;   // the same in object space, not of unit length
     vec3 base_normal;     // the same without bumps and normal maps
     bool softened;        // the light at the edge of bumps is softened
+#ifdef HAS_FRONT_ONLY
+    bool front_only;      // it is not there from behind
+#endif
     vec3 dpdu;            // ∂p/∂u in world space, not of unit length; 0 where u has no direction
     vec3 dpdv;            // ∂p/∂v
     vec3 object_dpdu;     // ∂p/∂u in object space

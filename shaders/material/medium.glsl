@@ -13,11 +13,15 @@ vec3 medium_transmittance(uint medium, float way)
 }
 
 // Whether a material is the boundary of glass with an inside.
-bool medium_is_inside(Material m)
+bool medium_is_inside(uint kind, uint mode)
 {
-    bool clear = m.kind == MATERIAL_DIELECTRIC || m.kind == MATERIAL_PRINCIPLED;
-    return clear && m.mode == DIELECTRIC_SOLID;
+    return (kind == MATERIAL_DIELECTRIC || kind == MATERIAL_PRINCIPLED) && mode == DIELECTRIC_SOLID;
 }
 
-// The medium behind a boundary of glass, for a direction through it; `side` is its cosine with the geometric normal.
-uint medium_beyond(Bsdf b, uint material, float side) { return b.mode != DIELECTRIC_THIN && side < 0.0 ? material : NONE; }
+// The medium behind a surface that is met in `medium`, for a direction through it; `side` is its cosine with the geometric
+// normal. A sheet has the same on both sides.
+uint medium_beyond(uint medium, Bsdf b, uint material, float side)
+{
+    if (!medium_is_inside(b.kind, b.mode)) return medium;
+    return side < 0.0 ? material : NONE;
+}

@@ -69,6 +69,7 @@ const uint MATERIAL_WORDS = 12u; // Words of a material: a MaterialHead, then it
 const uint MATERIAL_TWO_SIDED = 1u; // Material flag: it sends light out on both sides.
 const uint MATERIAL_SQUARED = 2u; // Material flag: what its roughness inputs give are roughnesses, to be squared.
 const uint MATERIAL_INTERFACE_SQUARED = 4u; // Material flag: what its interface inputs give are roughnesses, to be squared.
+const uint MATERIAL_FRONT_ONLY = 8u; // Material flag: its surfaces are there from the front alone.
 const uint INPUT_EMISSION = 1u; // ColorInput of all materials: radiance sent out.
 const uint INPUT_COLOR = 2u; // ColorInput: radiance, reflectance, diffuse coefficient or base colour.
 const uint INPUT_ROUGHNESS = 3u; // NumberInputs: GGX widths along ∂p/∂u and across it.

@@ -21,13 +21,14 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
     if (wo.z * wi.z > 0.0) f *= softening(surface, light.wi);
 #endif
     float side = dot(light.wi, surface.geometric);
+    if (wo.z * wi.z > 0.0 && !may_reflect(surface, side)) return;
 #ifdef GEOMETRIC_VETO
     if (side * wi.z <= 0.0) return;
 #endif
 #ifdef HAS_MEDIUM
     // A light from infinity is left as it is: no way out of the glass is free.
     bool through = wo.z * wi.z < 0.0;
-    uint medium = through ? medium_beyond(bsdf, surface.material, side) : path.medium;
+    uint medium = through ? medium_beyond(path.medium, bsdf, surface.material, side) : path.medium;
     if (!light.infinite) light.radiance *= medium_transmittance(medium, distance(surface.position, light.point));
 #endif
     // The path ends here when `last`: then the BSDF will not look for the light.

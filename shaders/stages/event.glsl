@@ -1,4 +1,4 @@
-// What the parts of a scattering event share. Switches of the variant: HAS_FOOTPRINT, HAS_UV1.
+// What the parts of a scattering event share. Switches of the variant: HAS_FOOTPRINT, HAS_UV1, HAS_FRONT_ONLY.
 #include "stages/wave.glsl"
 #include "base/cone.glsl"
 #include "base/offset.glsl"
@@ -17,6 +17,17 @@ vec3 limited(vec3 radiance, uint depth)
 vec3 ray_origin(Surface surface, float side)
 {
     return offset_ray_origin(surface.position, side < 0.0 ? -surface.geometric : surface.geometric, surface.reach);
+}
+
+// Whether what is reflected goes on where the surface is; `side` as above. By vertex normals a direction may be above a coarse surface that
+// is below its triangles: there is no surface to stop it where that is not there from behind.
+bool may_reflect(Surface surface, float side)
+{
+#ifdef HAS_FRONT_ONLY
+    return !surface.front_only || side > 0.0;
+#else
+    return true;
+#endif
 }
 
 // A direction that was chosen with density p stands for the light of a cone of solid angle 1 / (64 p): its spread times √(πp).

@@ -27,7 +27,7 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
     BsdfSample s = bsdf_sample(bsdf, wo, lobe, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_BSDF)));
     vec3 wi = basis_to_world(basis, s.wi);
     float side = dot(wi, surface.geometric);
-    if (max_component(s.weight) <= 0.0) return false;
+    if (max_component(s.weight) <= 0.0 || !s.through && !may_reflect(surface, side)) return false;
 #ifdef GEOMETRIC_VETO
     if (side * s.wi.z <= 0.0) return false;
 #endif
@@ -40,7 +40,7 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
 #ifdef HAS_GLASS
     if (s.through) {
         path.eta_scale *= s.eta * s.eta;
-        path.medium = medium_beyond(bsdf, surface.material, side);
+        path.medium = medium_beyond(path.medium, bsdf, surface.material, side);
     }
 #endif
     path.depth += 1u;

@@ -1,5 +1,5 @@
 // One scattering event of every path in the queue: emission, light sampling, and the next direction.
-// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_GLASS, HAS_MEDIUM, HAS_MIX, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
+// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_GLASS, HAS_MEDIUM, HAS_FRONT_ONLY, HAS_MIX, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
 // TRANSPARENT_FILM and those of the menus.
 #include "stages/direct.glsl"
 #include "stages/scatter.glsl"
@@ -48,6 +48,9 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     TextureContext context = context_of(surface, ray, facing_normal);
     Material material = material_fetch(surface.material);
     Material shining = material;
+#ifdef HAS_FRONT_ONLY
+    surface.front_only = (material.flags & MATERIAL_FRONT_ONLY) != 0u;
+#endif
 #ifdef HAS_MIX
     // A mix is one of its materials for the whole event, but for the light that it sends out.
     surface.material = mix_pick(surface.material, context, sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_MIX)));
@@ -55,7 +58,7 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
 #endif
 #ifdef HAS_MEDIUM
     // Glass around the glass that a path has left is known by its boundary, met from behind.
-    if (path.medium == NONE && !front && medium_is_inside(material)) path.medium = surface.material;
+    if (path.medium == NONE && !front && medium_is_inside(material.kind, material.mode)) path.medium = surface.material;
     path.throughput *= medium_transmittance(path.medium, distance(ray.origin, surface.position));
 #endif
 #if defined(HAS_BUMP) || defined(HAS_NORMAL_MAP)

@@ -149,6 +149,8 @@ constants! {
     MATERIAL_SQUARED = 2;
     /// Material flag: what its interface inputs give are roughnesses, to be squared.
     MATERIAL_INTERFACE_SQUARED = 4;
+    /// Material flag: its surfaces are there from the front alone.
+    MATERIAL_FRONT_ONLY = 8;
     /// ColorInput of all materials: radiance sent out.
     INPUT_EMISSION = 1;
     /// ColorInput: radiance, reflectance, diffuse coefficient or base colour.

@@ -8,13 +8,13 @@ use crate::layout::{
     FRESNEL_SCHLICK, INPUT_ABSORPTION, INPUT_CLEARCOAT, INPUT_COLOR, INPUT_EMISSION, INPUT_INDEX,
     INPUT_INTERFACE, INPUT_METALLIC, INPUT_MIX, INPUT_ROUGHNESS, INPUT_SHEEN, INPUT_SHEEN_ROUGHNESS,
     INPUT_SPECULAR, MATERIAL_COATED_CONDUCTOR, MATERIAL_COATED_DIFFUSE, MATERIAL_CONDUCTOR,
-    MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_INTERFACE_SQUARED,
-    MATERIAL_MIX, MATERIAL_PHONG, MATERIAL_PRINCIPLED, MATERIAL_SQUARED, MATERIAL_TWO_SIDED, MATERIAL_UNLIT,
-    MATERIAL_WORDS, Material, MaterialHead, MixInput, NONE, NumberInputs,
+    MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_FRONT_ONLY,
+    MATERIAL_INTERFACE_SQUARED, MATERIAL_MIX, MATERIAL_PHONG, MATERIAL_PRINCIPLED, MATERIAL_SQUARED,
+    MATERIAL_TWO_SIDED, MATERIAL_UNLIT, MATERIAL_WORDS, Material, MaterialHead, MixInput, NONE, NumberInputs,
 };
 use crate::scene::{
     self, CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Fresnel, Interface, Mix, Principled,
-    Roughness, Scene, Surface, Value,
+    Roughness, Scene, Sides, Surface, Value,
 };
 use crate::{Error, Result};
 use glam::Vec3;
@@ -37,6 +37,7 @@ pub(super) fn prepare(scene: &Scene, textures: &References, out: &mut Prepared) 
             Builder { textures, interfaces: &mut interfaces, features: &mut out.features, record: empty() };
         builder.surface(&material.surface);
         builder.emission(material);
+        builder.sides(material.detail.sides);
         let record = builder.record;
         out.features.material_kinds |= 1 << record.head.kind;
         out.materials.push(record);
@@ -176,6 +177,10 @@ impl Builder<'_, '_> {
         let Some(emission) = &material.emission else { return };
         self.color(INPUT_EMISSION, &emission.radiance);
         self.record.head.flags |= if material.shines_behind() { MATERIAL_TWO_SIDED } else { 0 };
+    }
+
+    fn sides(&mut self, sides: Sides) {
+        self.record.head.flags |= if sides == Sides::Front { MATERIAL_FRONT_ONLY } else { 0 };
     }
 
     fn kind(&mut self, kind: u32) {

@@ -213,7 +213,7 @@ pub fn defines(
         flag("HAS_PARTS", features.parts);
         flag("HAS_PATCHES", features.patches);
         flag("HAS_OPACITY", features.opacity);
-        flag("HAS_FRONT_ONLY", features.front_only && stage.traverses());
+        flag("HAS_FRONT_ONLY", features.front_only);
         flag("HAS_FILTER", features.filter);
     }
     if stage.traverses() || matches!(stage, Stage::Shade | Stage::Evaluate) {

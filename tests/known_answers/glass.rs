@@ -212,6 +212,21 @@ fn a_ball_inside_absorbing_glass() {
 }
 
 #[test]
+fn a_sheet_inside_glass_leaves_the_glass_as_it_is() {
+    // A ball of glass of radius 2 that bends nothing; in it a white disk at z = 0, behind a sheet at z = 1
+    let mut s = scene(4, 4, 64);
+    s.camera = look(Vec3::Z * 6.0, Vec3::ZERO, 0.02);
+    s.render.max_depth = 3;
+    let glass = s.glass(1.0, 0.0, Vec3::new(0.2, 0.5, 1.0), false);
+    s.sphere(Vec3::ZERO, 2.0, glass);
+    let sheet = s.glass(1.0, 0.0, Vec3::ZERO, true);
+    s.disk(Vec3::Z, Vec3::Z, 1.0, sheet);
+    let white = s.unlit(grey(1.0));
+    s.disk(Vec3::ZERO, Vec3::Z, 0.3, white);
+    expect_mean(mean(&render(&s)), [0.2_f64, 0.5, 1.0].map(|a| (-2.0 * a).exp()), 1e-4);
+}
+
+#[test]
 fn a_lamp_inside_glass_is_absorbed_on_its_way_to_a_surface_there() {
     // A ball of glass of radius 2 that bends nothing; in its middle a white disk towards the camera, and a lamp beside
     let absorption = [0.2_f64, 0.5, 1.0];

@@ -121,3 +121,26 @@ fn a_lamp_that_is_there_from_its_front_shines_to_its_front_alone() {
         assert_eq!(lit(Sides::Front, two_sided, false).mean, [0.0; 3]);
     }
 }
+
+#[test]
+fn a_lamp_inside_does_not_shine_out_past_coarse_triangles() {
+    // By the normals of a ball much of a tetrahedron is turned to the lamp within it, and nothing of it is there from inside
+    let lit = |lamp: Vec3| {
+        let mut s = scene(32, 32, 16);
+        s.camera = look(Vec3::new(0.5, 2.0, 5.0), Vec3::ZERO, 40.0);
+        let white = s.diffuse(0.8);
+        let m = front_only(&mut s, white);
+        let corners =
+            [Vec3::ONE, Vec3::new(-1.0, -1.0, 1.0), Vec3::new(-1.0, 1.0, -1.0), Vec3::new(1.0, -1.0, -1.0)];
+        let faces = [[0, 1, 3], [0, 3, 2], [0, 2, 1], [1, 2, 3]];
+        let normals = corners.map(|c| (c + Vec3::new(0.0, 6.0, 0.0)).normalize()).to_vec();
+        let mesh =
+            Mesh { positions: corners.to_vec(), normals, triangles: faces.to_vec(), ..Mesh::default() };
+        let mesh = s.meshes.add("tetrahedron", mesh);
+        s.place(mesh, m, Affine3A::IDENTITY);
+        s.lights.push(point(lamp, 5.0));
+        mean(&render(&s)).mean
+    };
+    assert_eq!(lit(Vec3::new(0.0, 0.1, 0.0)), [0.0; 3]);
+    assert!(lit(Vec3::new(0.0, 3.0, 3.0))[0] > 0.01);
+}
