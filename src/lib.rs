@@ -25,12 +25,13 @@
 //! warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
 //! let gpu = Arc::new(Gpu::open(&DeviceChoice::default())?);
 //! let mut compiler = Compiler::new(Sources::embedded(), CacheOptions::from_environment());
-//! let renderer = Renderer::open(gpu.clone(), &mut compiler, &scene, Options::of(&gpu))?;
-//! let film = renderer.render(0, scene.render.spp, &mut |progress| {
+//! let (look, spp) = (scene.film.clone(), scene.render.spp);
+//! let renderer = Renderer::open(gpu.clone(), &mut compiler, scene, Options::of(&gpu))?;
+//! let film = renderer.render(0, spp, &mut |progress| {
 //!     eprintln!("{:.0} %", 100.0 * progress.done);
 //!     Next::Continue
 //! })?;
-//! dapple::film::write(Path::new("scene.png"), &film.resolve(), &scene.film, &film.meta())?;
+//! dapple::film::write(Path::new("scene.png"), &film.resolve(), &look, &film.meta())?;
 //! # Ok(())
 //! # }
 //! ```

@@ -68,7 +68,7 @@ fn compare_with(expected: &Reference, scene: &Scene, name: &str) {
     let mut device = device().lock().unwrap_or_else(PoisonError::into_inner);
     let (gpu, compiler) = &mut *device;
     let start = Instant::now();
-    let renderer = Renderer::open(gpu.clone(), compiler, scene, Options::of(gpu)).unwrap();
+    let renderer = Renderer::open(gpu.clone(), compiler, scene.clone(), Options::of(gpu)).unwrap();
     let film = renderer.render(0, scene.render.spp, &mut |_| Next::Continue).unwrap();
     let seconds = start.elapsed().as_secs_f64();
     assert_eq!((film.left_out(), film.clamped()), (0, 0), "samples left out, clamped");

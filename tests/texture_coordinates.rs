@@ -34,7 +34,7 @@ fn render(scene: &str) -> Estimate {
     let (scene, _) = read_scene(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
     let mut device = device().lock().unwrap_or_else(PoisonError::into_inner);
     let (gpu, compiler) = &mut *device;
-    let renderer = Renderer::open(gpu.clone(), compiler, &scene, Options::of(gpu)).unwrap();
+    let renderer = Renderer::open(gpu.clone(), compiler, scene.clone(), Options::of(gpu)).unwrap();
     let film = renderer.render(0, scene.render.spp, &mut |_| Next::Continue).unwrap();
     assert_eq!(film.left_out(), 0, "samples that are not finite");
     let file = folder.path().join("a.exr");

@@ -36,7 +36,7 @@ fn nothing_is_said_from_the_first_call_to_the_last() {
     let (scene, _) = read_scene(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
     let gpu = Arc::new(Gpu::open(&choice).unwrap());
     let mut compiler = Compiler::new(Sources::embedded(), CacheOptions::from_environment());
-    let renderer = Renderer::open(gpu.clone(), &mut compiler, &scene, Options::of(&gpu)).unwrap();
+    let renderer = Renderer::open(gpu.clone(), &mut compiler, scene, Options::of(&gpu)).unwrap();
     let film = renderer.render(0, 2, &mut |_| Next::Continue).unwrap();
     assert_eq!(film.samples_per_pixel(), 2);
     drop((renderer, gpu));

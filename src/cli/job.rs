@@ -12,7 +12,13 @@ use std::path::{Path, PathBuf};
 
 /// All that a render needs.
 pub struct Job {
+    /// Used up by the renderer.
     pub scene: Scene,
+    /// Size and look of the picture.
+    pub film: Film,
+    /// Samples a pixel.
+    pub spp: u32,
+    pub seed: u32,
     pub warnings: Vec<Warning>,
     /// Where the picture goes; none = only the values of a pixel are wanted.
     pub target: Option<PathBuf>,
@@ -38,6 +44,9 @@ impl Job {
         scene.render.seed = args.seed.unwrap_or(scene.render.seed);
         check_samples(args.first_sample, scene.render.spp)?;
         Ok(Self {
+            film: scene.film.clone(),
+            spp: scene.render.spp,
+            seed: scene.render.seed,
             scene,
             warnings,
             target,

@@ -35,11 +35,12 @@ pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
         console.note(&format!("rendering on the CPU: {}", info.name));
     }
     announce(&job, &gpu, console);
-    let renderer = Renderer::open(gpu.clone(), &mut job.compiler, &job.scene, Options::of(&gpu))
+    let scene = std::mem::take(&mut job.scene);
+    let renderer = Renderer::open(gpu.clone(), &mut job.compiler, scene, Options::of(&gpu))
         .map_err(|error| in_shaders(error, args.shaders.as_deref()))?;
     let start = Instant::now();
     let mut watch = Watch::new(&job, &stop, console);
-    let outcome = renderer.render(job.first_sample, job.scene.render.spp, &mut |p| watch.step(p));
+    let outcome = renderer.render(job.first_sample, job.spp, &mut |p| watch.step(p));
     let (sound, reason) = (watch.sound, watch.reason);
     console.clear_bar();
     let film = outcome.map_err(|error| Failure {
@@ -51,7 +52,7 @@ pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
 }
 
 fn announce(job: &Job, gpu: &Gpu, console: &mut Console) {
-    let (film, info) = (&job.scene.film, gpu.info());
+    let (film, info) = (&job.film, gpu.info());
     let window = film.window();
     console.event(&Event::Start {
         device: info.name.clone(),
@@ -59,9 +60,9 @@ fn announce(job: &Job, gpu: &Gpu, console: &mut Console) {
         kind: super::devices::kind_name(info.kind),
         size: [film.width, film.height],
         window: [window.x0, window.y0, window.x1, window.y1],
-        spp: job.scene.render.spp,
+        spp: job.spp,
         first_sample: job.first_sample,
-        seed: job.scene.render.seed,
+        seed: job.seed,
         file: job.file(),
     });
 }
@@ -100,8 +101,8 @@ struct Reached {
 
 impl<'a> Watch<'a> {
     fn new(job: &Job, stop: &'a Stop, console: &'a mut Console) -> Self {
-        let spp = job.scene.render.spp;
-        let work = job.scene.film.window().area() as f64 * f64::from(spp);
+        let spp = job.spp;
+        let work = job.film.window().area() as f64 * f64::from(spp);
         let nothing = Reached::default();
         Self { stop, console, spp, work, told: None, last: nothing, sound: nothing, reason: None }
     }
@@ -169,16 +170,16 @@ fn deliver(
 ) -> Result<()> {
     let picture = film.resolve();
     if let Some(file) = &job.target {
-        film::write(file, &picture, &job.scene.film, &film.meta())?;
+        film::write(file, &picture, &job.film, &film.meta())?;
     }
     if let Some(place) = job.pixel {
         pixel::print(&picture, place, console)?;
     }
     let left_out = film.left_out();
     let samples = picture.samples.iter().map(|&n| u64::from(n)).sum::<u64>() + left_out;
-    let wanted = job.scene.render.spp;
+    let wanted = job.spp;
     // A signal during the last pass stops nothing.
-    let whole = job.scene.film.window().area() * u64::from(wanted);
+    let whole = job.film.window().area() * u64::from(wanted);
     let summary = Summary {
         spp: film.samples_per_pixel(),
         wanted,
@@ -217,7 +218,7 @@ impl Summary {
             console.note(&format!("stopped by {reason} after {spp} of {wanted} samples a pixel"));
         }
         if let Some(file) = file {
-            let window = job.scene.film.window();
+            let window = job.film.window();
             let (width, height) = (window.width(), window.height());
             console
                 .note(&format!("{file}: {width} x {height} pixels, {spp} samples a pixel, {seconds:.1} s"));

@@ -101,15 +101,36 @@ impl Gpu {
     ///
     /// As [`Gpu::buffer`], or when copying fails.
     pub fn upload(&self, name: &str, words: &[u8]) -> Result<Arc<Buffer>> {
-        let buffer = self.buffer(name, words.len() as u64, Place::Device)?;
-        if buffer.write(words) {
-            return Ok(buffer);
-        }
-        let staging = self.buffer(&format!("{name} (staging)"), words.len() as u64, Place::Upload)?;
-        if !staging.write(words) {
-            return Err(Error::device(format!("the driver does not map memory for buffer `{name}`")));
-        }
-        self.run(&[Command::Copy { from: &staging, to: &buffer, bytes: buffer.bytes }])?;
+        self.upload_parts(name, words.len() as u64, |write| write(0, words))
+    }
+
+    /// Makes a buffer of `bytes` on the device, whose parts are written one after the other: `parts` tells the byte at which each begins, and
+    /// what is in it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Gpu::buffer`], when copying fails, when a part is not within the buffer, and those of `parts`.
+    pub fn upload_parts(
+        &self,
+        name: &str,
+        bytes: u64,
+        parts: impl FnOnce(&mut dyn FnMut(u64, &[u8]) -> Result<()>) -> Result<()>,
+    ) -> Result<Arc<Buffer>> {
+        let buffer = self.buffer(name, bytes, Place::Device)?;
+        parts(&mut |at, words| {
+            let length = words.len() as u64;
+            if at.checked_add(length).is_none_or(|end| end > bytes) {
+                return Err(Error::device(format!("{length} bytes at {at} are not within buffer `{name}`")));
+            }
+            if buffer.write_at(at, words) {
+                return Ok(());
+            }
+            let staging = self.buffer(&format!("{name} (staging)"), length, Place::Upload)?;
+            if !staging.write(words) {
+                return Err(Error::device(format!("the driver does not map memory for buffer `{name}`")));
+            }
+            self.run(&[Command::Copy { from: &staging, to: &buffer, at, bytes: length }])
+        })?;
         Ok(buffer)
     }
 }
@@ -138,12 +159,16 @@ impl Buffer {
     /// Writes to the start of the buffer; false when the host does not see it, or it is shorter. The device must not be
     /// using it.
     pub fn write(&self, bytes: &[u8]) -> bool {
+        self.write_at(0, bytes)
+    }
+
+    /// The same from a byte on.
+    pub fn write_at(&self, at: u64, bytes: &[u8]) -> bool {
         let mut allocation = self.allocation();
         let memory = allocation.as_mut().and_then(Allocation::mapped_slice_mut);
-        let own = usize::try_from(self.bytes).unwrap_or(usize::MAX);
-        let Some(target) =
-            memory.and_then(|memory| memory.get_mut(..own)).and_then(|memory| memory.get_mut(..bytes.len()))
-        else {
+        let [own, at] = [self.bytes, at].map(|n| usize::try_from(n).unwrap_or(usize::MAX));
+        let whole = memory.and_then(|memory| memory.get_mut(..own));
+        let Some(target) = whole.and_then(|memory| memory.get_mut(at..)?.get_mut(..bytes.len())) else {
             return false;
         };
         target.copy_from_slice(bytes);

@@ -18,12 +18,14 @@ pub enum Command<'a> {
         /// With what.
         value: u32,
     },
-    /// Copies from the start of one buffer to the start of another.
+    /// Copies from the start of one buffer into another.
     Copy {
         /// Source.
         from: &'a Arc<Buffer>,
         /// Target.
         to: &'a Arc<Buffer>,
+        /// Byte of the target where the copy begins.
+        at: u64,
         /// How much.
         bytes: u64,
     },
@@ -202,10 +204,10 @@ unsafe fn record_one(device: &ash::Device, buffer: vk::CommandBuffer, command: &
                     device.cmd_fill_buffer(buffer, target.raw, 0, bytes, *value);
                 }
             }
-            Command::Copy { from, to, bytes } => {
+            Command::Copy { from, to, at, bytes } => {
                 let bytes = (*bytes).min(from.bytes()).min(to.bytes());
                 if bytes > 0 {
-                    let region = vk::BufferCopy::default().size(bytes);
+                    let region = vk::BufferCopy::default().dst_offset(*at).size(bytes);
                     device.cmd_copy_buffer(buffer, from.raw, to.raw, &[region]);
                 }
             }
@@ -312,7 +314,7 @@ mod tests {
         let fill = |buffer, bytes| Command::Fill { buffer, bytes, value: 7 };
         assert!(gpu.run(&[fill(&own, 3)]).is_err());
         assert!(gpu.run(&[fill(&foreign, 64)]).is_err());
-        assert!(gpu.run(&[Command::Copy { from: &foreign, to: &own, bytes: 64 }]).is_err());
+        assert!(gpu.run(&[Command::Copy { from: &foreign, to: &own, at: 0, bytes: 64 }]).is_err());
         assert!(gpu.bindings(&gpu.layout(Backend::Storage).unwrap(), &[("film", &foreign)]).is_err());
         // More than there is means all, and nothing means nothing.
         gpu.run(&[fill(&own, 1 << 40), Command::Barrier, fill(&own, 0)]).unwrap();

@@ -66,9 +66,9 @@ fn with_decoder<D: ImageDecoder>(decoder: Result<D, ImageError>, bytes: &[u8]) -
 
     let picture = DynamicImage::from_decoder(decoder).map_err(refused)?;
     let texels = match picture.color().bytes_per_pixel() / picture.color().channel_count() {
-        1 => Texels::Rgba8(group(&picture.into_rgba8())),
-        2 => Texels::Rgba16(group(&picture.into_rgba16())),
-        _ => Texels::RgbaF32(group(&picture.into_rgba32f())),
+        1 => Texels::Rgba8(group(picture.into_rgba8().into_raw())),
+        2 => Texels::Rgba16(group(picture.into_rgba16().into_raw())),
+        _ => Texels::RgbaF32(group(picture.into_rgba32f().into_raw())),
     };
     finite(Image { width, height, texels })
 }
@@ -90,8 +90,10 @@ pub(super) fn finite(image: Image) -> Result<Image> {
         .help("write the picture again with finite numbers, at most 65504 in 16-bit floats"))
 }
 
-fn group<T: Copy>(channels: &[T]) -> Vec<[T; 4]> {
-    channels.as_chunks().0.to_vec()
+/// The same channels by texels: without a copy, unless the list has room for more.
+fn group<T: bytemuck::Pod>(channels: Vec<T>) -> Vec<[T; 4]> {
+    bytemuck::allocation::try_cast_vec(channels)
+        .unwrap_or_else(|(_, channels)| channels.as_chunks().0.to_vec())
 }
 
 fn refused(error: ImageError) -> Error {

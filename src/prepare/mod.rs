@@ -21,7 +21,6 @@ mod motion;
 mod pixel_filter;
 mod places;
 mod punctual;
-mod pyramid;
 mod shape_lights;
 mod shapes;
 mod tangents;
@@ -31,6 +30,7 @@ mod units;
 mod variant;
 mod wide;
 
+pub use atlas::Atlas;
 pub use bounds::Bounds;
 pub use displace::{displace, displacing};
 pub(crate) use environment::rows as environment_rows;
@@ -73,8 +73,8 @@ pub struct Prepared {
     pub details: Vec<Detail>,
     /// Words of the texture records.
     pub textures: Vec<[u32; 4]>,
-    /// Words of the atlas pages.
-    pub texels: Vec<[u32; 4]>,
+    /// Where the texels of pictures are.
+    pub atlas: Atlas,
     /// The table of lights.
     pub lights: Vec<Light>,
     /// Importance table of an environment image, row by row; v grows with the row.
@@ -124,7 +124,7 @@ impl Prepared {
             size_of_val(self.interfaces.as_slice()),
             size_of_val(self.details.as_slice()),
             size_of_val(self.textures.as_slice()),
-            size_of_val(self.texels.as_slice()),
+            self.atlas.words() * size_of::<[u32; 4]>(),
             size_of_val(self.lights.as_slice()),
             size_of_val(self.environment.as_slice()),
             size_of_val(self.lens.words.as_slice()),

@@ -1,6 +1,7 @@
 //! Values of textures at points that the host names.
 
 use super::kernels::key;
+use super::resident::upload_texels;
 use super::threads_of;
 use crate::gpu::{Bindings, Buffer, Command, Gpu, Pipeline, Place};
 use crate::layout::{Backend, Frame, Record as _, TexturePoint, WORD_BYTES, WORKGROUP};
@@ -8,6 +9,7 @@ use crate::prepare::{self, Features, Prepared, Stage, prepare_textures};
 use crate::scene::{Handle, Scene, Texture};
 use crate::shader::Compiler;
 use crate::{Error, Result};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Most points of one dispatch.
@@ -54,7 +56,7 @@ impl Evaluator {
         let values = gpu.buffer("values", value_bytes, Place::Device)?;
         let host = gpu.buffer("values (host)", value_bytes, Place::Readback)?;
         let records = gpu.upload("textures", bytemuck::cast_slice(&textures.records))?;
-        let texels = gpu.upload("texels", bytemuck::cast_slice(&textures.texels))?;
+        let texels = upload_texels(&gpu, &textures.atlas, |image| Cow::Borrowed(&scene.images[image]))?;
         let bindings = gpu.bindings(
             &layout,
             &[
@@ -107,28 +109,23 @@ impl Evaluator {
         self.gpu.run(&[
             Command::Dispatch { pipeline: &self.pipeline, bindings: &self.bindings, groups },
             Command::Barrier,
-            Command::Copy { from: &self.values, to: &self.host, bytes },
+            Command::Copy { from: &self.values, to: &self.host, at: 0, bytes },
             Command::Barrier,
         ])?;
         self.host.read(bytes, |words| values.extend_from_slice(bytemuck::cast_slice(words)))
     }
 }
 
-/// The scene with its displaced meshes, cut and moved; none when it has no such.
+/// Cuts and moves the displaced meshes of a scene.
 ///
 /// # Errors
 ///
 /// As [`prepare::displace`] and [`Evaluator::new`].
-pub fn displaced(
-    gpu: &Arc<Gpu>,
-    compiler: &mut Compiler,
-    scene: &Scene,
-    backend: Backend,
-) -> Result<Option<Scene>> {
+pub fn displace(gpu: &Arc<Gpu>, compiler: &mut Compiler, scene: &mut Scene, backend: Backend) -> Result<()> {
     let asked = prepare::displacing(scene);
     if asked.is_empty() {
-        return Ok(None);
+        return Ok(());
     }
     let evaluator = Evaluator::new(gpu.clone(), compiler, scene, &asked, backend)?;
-    prepare::displace(scene, &mut |texture, points| evaluator.values(texture, points)).map(Some)
+    prepare::displace(scene, &mut |texture, points| evaluator.values(texture, points))
 }

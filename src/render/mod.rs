@@ -9,7 +9,7 @@ mod resident;
 mod slicing;
 mod wave;
 
-pub use evaluate::{Evaluator, displaced};
+pub use evaluate::{Evaluator, displace};
 pub use kernels::{Kernels, key};
 pub use resident::Resident;
 pub use slicing::Slicing;
@@ -126,20 +126,20 @@ fn threads_of(gpu: &Gpu) -> u32 {
 }
 
 impl Renderer {
-    /// Prepares a scene, compiles its kernels and puts it on the device: all the way from [`Scene`] in one step.
+    /// Prepares a scene, compiles its kernels and puts it on the device: all the way from [`Scene`] in one step. It is used up, so that
+    /// host and device do not both hold its pictures.
     ///
     /// # Errors
     ///
     /// As [`prepare::prepare`], [`Kernels::new`] and [`Self::new`].
-    pub fn open(gpu: Arc<Gpu>, compiler: &mut Compiler, scene: &Scene, options: Options) -> Result<Self> {
-        let displaced = displaced(&gpu, compiler, scene, options.backend)?;
-        let scene = displaced.as_ref().unwrap_or(scene);
-        let mut prepared = prepare::prepare(scene)?;
-        let kernels = Kernels::new(&gpu, compiler, scene, &prepared, options.backend)?;
-        Self::new(gpu, kernels, scene, &mut prepared, options.slicing)
+    pub fn open(gpu: Arc<Gpu>, compiler: &mut Compiler, mut scene: Scene, options: Options) -> Result<Self> {
+        displace(&gpu, compiler, &mut scene, options.backend)?;
+        let prepared = prepare::prepare(&scene)?;
+        let kernels = Kernels::new(&gpu, compiler, &scene, &prepared, options.backend)?;
+        Self::new(gpu, kernels, scene, prepared, options.slicing)
     }
 
-    /// Puts a scene on the device. `prepared` loses its large parts on the way.
+    /// Puts a scene on the device, with the kernels that were made for it.
     ///
     /// # Errors
     ///
@@ -147,12 +147,11 @@ impl Renderer {
     pub fn new(
         gpu: Arc<Gpu>,
         kernels: Kernels,
-        scene: &Scene,
-        prepared: &mut Prepared,
+        scene: Scene,
+        prepared: Prepared,
         slicing: Slicing,
     ) -> Result<Self> {
-        let resident = Resident::upload(&gpu, prepared)?;
-        let frame = frame::of_scene(scene, prepared, threads_of(&gpu));
+        let frame = frame::of_scene(&scene, &prepared, threads_of(&gpu));
         let film_frame = film::Frame {
             width: scene.film.width,
             height: scene.film.height,
@@ -161,6 +160,7 @@ impl Renderer {
             depth_exponent: prepared.depth_exponent,
             seed: scene.render.seed,
         };
+        let resident = Resident::upload(&gpu, prepared, scene.images)?;
         Ok(Self { gpu, kernels, resident, frame, film_frame, slicing })
     }
 
@@ -325,7 +325,7 @@ impl Run<'_> {
         let bytes = u64::from(count) * u64::from(WORKGROUP) * u64::from(FILM_PLANES) * WORD_BYTES;
         gpu.run(&[
             Command::Barrier,
-            Command::Copy { from: &self.device_film, to: &self.host_film, bytes },
+            Command::Copy { from: &self.device_film, to: &self.host_film, at: 0, bytes },
             Command::Barrier,
             Command::Fill { buffer: &self.device_film, bytes: self.device_film.bytes(), value: 0 },
             Command::Barrier,

@@ -2,8 +2,22 @@
 
 use crate::Result;
 use crate::gpu::{Buffer, Gpu};
-use crate::prepare::Prepared;
+use crate::prepare::{Atlas, Prepared};
+use crate::scene::{Handle, Image, Store};
+use std::borrow::Cow;
 use std::sync::Arc;
+
+/// Puts the pictures of an atlas on the device, page by page.
+pub(super) fn upload_texels<'a>(
+    gpu: &Gpu,
+    atlas: &Atlas,
+    picture: impl FnMut(Handle<Image>) -> Cow<'a, Image>,
+) -> Result<Arc<Buffer>> {
+    let word = size_of::<[u32; 4]>();
+    gpu.upload_parts("texels", (atlas.words() * word) as u64, |write| {
+        atlas.fill(picture, |first, words| write((first * word) as u64, bytemuck::cast_slice(words)))
+    })
+}
 
 /// The buffers that the kernels read of a scene, by the names of the table of bindings.
 pub struct Resident {
@@ -11,8 +25,12 @@ pub struct Resident {
 }
 
 impl Resident {
-    /// Puts a prepared scene on the device. It is taken apart on the way, so that host and device do not both hold it.
-    pub fn upload(gpu: &Gpu, prepared: &mut Prepared) -> Result<Self> {
+    /// Puts a prepared scene and its pictures on the device. Both are taken apart on the way, so that host and device do not both
+    /// hold them.
+    ///
+    /// # Errors
+    /// When it is larger than the memory or the buffers of the device.
+    pub fn upload(gpu: &Gpu, prepared: Prepared, mut images: Store<Image>) -> Result<Self> {
         let mut buffers = Vec::new();
         let mut put = |name: &'static str, bytes: &[u8]| -> Result<()> {
             if !bytes.is_empty() {
@@ -20,8 +38,8 @@ impl Resident {
             }
             Ok(())
         };
-        put("tree", bytemuck::cast_slice(&std::mem::take(&mut prepared.tree)))?;
-        let (faces, corners) = (std::mem::take(&mut prepared.faces), std::mem::take(&mut prepared.corners));
+        put("tree", bytemuck::cast_slice(&prepared.tree))?;
+        let (faces, corners) = (prepared.faces, prepared.corners);
         let faces: &[u8] = bytemuck::cast_slice(&faces);
         if corners.is_empty() {
             put("faces", faces)?;
@@ -31,15 +49,19 @@ impl Resident {
         let instances: &[u8] = bytemuck::cast_slice(&prepared.instances);
         let motions: &[u8] = bytemuck::cast_slice(&prepared.motions);
         put("instances", &[instances, motions, bytemuck::cast_slice(&prepared.shapes)].concat())?;
-        put("vertices", bytemuck::cast_slice(&std::mem::take(&mut prepared.vertices)))?;
+        put("vertices", bytemuck::cast_slice(&prepared.vertices))?;
         let materials: &[u8] = bytemuck::cast_slice(&prepared.materials);
         put("materials", &[materials, bytemuck::cast_slice(&prepared.interfaces)].concat())?;
         put("details", bytemuck::cast_slice(&prepared.details))?;
         put("textures", bytemuck::cast_slice(&prepared.textures))?;
-        put("texels", bytemuck::cast_slice(&std::mem::take(&mut prepared.texels)))?;
         put("lights", bytemuck::cast_slice(&prepared.lights))?;
-        put("environment", bytemuck::cast_slice(&std::mem::take(&mut prepared.environment)))?;
-        put("lens", bytemuck::cast_slice(&std::mem::take(&mut prepared.lens.words)))?;
+        put("environment", bytemuck::cast_slice(&prepared.environment))?;
+        put("lens", bytemuck::cast_slice(&prepared.lens.words))?;
+        let atlas = prepared.atlas;
+        if atlas.words() > 0 {
+            let take = |image| Cow::Owned(std::mem::replace(&mut images[image], Image::EMPTY));
+            buffers.push(("texels", upload_texels(gpu, &atlas, take)?));
+        }
         Ok(Self { buffers })
     }
 

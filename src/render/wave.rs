@@ -142,7 +142,8 @@ impl Wave {
 
     /// Paths and shadow rays that wait for the next round.
     fn waiting(&self, gpu: &Gpu) -> Result<(u32, u32)> {
-        let copy = Command::Copy { from: &self.counters, to: &self.seen, bytes: 4 * u64::from(COUNTERS) };
+        let copy =
+            Command::Copy { from: &self.counters, to: &self.seen, at: 0, bytes: 4 * u64::from(COUNTERS) };
         gpu.run(&[copy, Command::Barrier])?;
         self.seen_waiting()
     }
@@ -209,7 +210,7 @@ impl Wave {
         }
         commands.extend([
             self.one(kernels, Stage::Film, interleaved(frame, frame.tile_count)),
-            Command::Copy { from: &self.counters, to: &self.seen, bytes: 4 * u64::from(COUNTERS) },
+            Command::Copy { from: &self.counters, to: &self.seen, at: 0, bytes: 4 * u64::from(COUNTERS) },
             Command::Barrier,
         ]);
         commands

@@ -123,7 +123,7 @@ impl Probe {
                 groups: [frame.point_count.div_ceil(WORKGROUP), 1],
             },
             Command::Barrier,
-            Command::Copy { from: &values, to: &host, bytes },
+            Command::Copy { from: &values, to: &host, at: 0, bytes },
             Command::Barrier,
         ])?;
         host.read(bytes, |words| words.as_chunks().0.to_vec())

@@ -44,7 +44,7 @@ pub fn open(scene: &Scene, options: Options) -> Renderer {
     let compiler =
         COMPILER.get_or_init(|| Mutex::new(Compiler::new(sources(), CacheOptions::from_environment())));
     let mut compiler = compiler.lock().unwrap_or_else(PoisonError::into_inner);
-    Renderer::open(gpu(), &mut compiler, scene, options).unwrap()
+    Renderer::open(gpu(), &mut compiler, scene.clone(), options).unwrap()
 }
 
 /// All samples of a scene.

@@ -72,8 +72,8 @@ pub fn run(args: &BenchArgs, console: &mut Console) -> Result<()> {
     let bench = Bench::open(args)?;
     if let Some((task, name)) = child::own_task() {
         let seconds = match task {
-            Task::Kernels => bench.kernel_seconds(&scene_of(args, &name)?)?,
-            Task::FirstSlice => bench.first_slice_seconds(&scene_of(args, &name)?, start)?,
+            Task::Kernels => bench.kernel_seconds(scene_of(args, &name)?)?,
+            Task::FirstSlice => bench.first_slice_seconds(scene_of(args, &name)?, start)?,
         };
         console.result(&seconds.to_string());
         return Ok(());
@@ -142,24 +142,23 @@ impl<'a> Bench<'a> {
 
     /// Seconds from GLSL until every kernel of the wave has run once, on one tile in the middle: some drivers compile only
     /// then. Putting the scene on the device is not counted.
-    fn kernel_seconds(&self, scene: &Scene) -> Result<f64> {
-        let mut scene = scene.clone();
+    fn kernel_seconds(&self, mut scene: Scene) -> Result<f64> {
         let Rect { x0, y0, x1, y1 } = scene.film.window();
         let (x, y) = (u32::midpoint(x0, x1), u32::midpoint(y0, y1));
         scene.film.crop = Some(Rect { x0: x, y0: y, x1: (x + TILE).min(x1), y1: (y + TILE).min(y1) });
-        let mut prepared = prepare::prepare(&scene)?;
+        let prepared = prepare::prepare(&scene)?;
         let start = Instant::now();
         let kernels =
             Kernels::new(&self.gpu, &mut self.compiler()?, &scene, &prepared, self.options.backend)?;
         let compiled = start.elapsed();
-        let renderer = Renderer::new(self.gpu.clone(), kernels, &scene, &mut prepared, self.options.slicing)?;
+        let renderer = Renderer::new(self.gpu.clone(), kernels, scene, prepared, self.options.slicing)?;
         let start = Instant::now();
         renderer.render(0, 1, &mut |_| Next::Continue)?;
         Ok((compiled + start.elapsed()).as_secs_f64())
     }
 
     /// Seconds from `start` to the end of the first slice, of one sample a pixel.
-    fn first_slice_seconds(&self, scene: &Scene, start: Instant) -> Result<f64> {
+    fn first_slice_seconds(&self, scene: Scene, start: Instant) -> Result<f64> {
         let renderer = Renderer::open(self.gpu.clone(), &mut self.compiler()?, scene, self.options)?;
         let mut first = None;
         renderer.render(0, 1, &mut |progress| {
@@ -176,7 +175,7 @@ impl<'a> Bench<'a> {
     fn measure(&self, name: &str) -> Result<Row> {
         let Self { args, gpu, options } = self;
         let scene = scene_of(args, name)?;
-        let mut prepared = prepare::prepare(&scene)?;
+        let prepared = prepare::prepare(&scene)?;
         let triangles = prepared.triangle_count;
         let (bvh_seconds, cost) = (prepared.bvh_seconds.0, prepared.bvh_cost);
         gpu.take_peak_bytes();
@@ -187,9 +186,9 @@ impl<'a> Bench<'a> {
         let compile_warm_seconds = caches.seconds(Task::Kernels, name)?;
         let first_slice_seconds = caches.seconds(Task::FirstSlice, name)?;
 
-        let renderer = Renderer::new(gpu.clone(), kernels, &scene, &mut prepared, options.slicing)?;
-        drop(prepared);
         let mut spp = args.spp.unwrap_or(scene.render.spp);
+        let pixels = scene.film.window().area() as f64;
+        let renderer = Renderer::new(gpu.clone(), kernels, scene, prepared, options.slicing)?;
         let (mut best, mut mean) = timed(&renderer, spp)?;
         while args.spp.is_none() && best < SHORTEST && spp < MOST_SPP {
             spp *= 4;
@@ -205,7 +204,7 @@ impl<'a> Bench<'a> {
             spp,
             triangles,
             mean_radiance: mean,
-            msamples_per_second: scene.film.window().area() as f64 * f64::from(spp) / best / 1e6,
+            msamples_per_second: pixels * f64::from(spp) / best / 1e6,
             camera_mrays_per_second: stages.camera.mega_per_second(),
             bounce_mrays_per_second: stages.bounce.mega_per_second(),
             shadow_mrays_per_second: stages.shadow.mega_per_second(),

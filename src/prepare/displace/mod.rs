@@ -13,7 +13,7 @@ use crate::scene::{
 use crate::{Error, Result};
 use glam::{Affine3A, Mat3A, Vec2, Vec3};
 use refine::{Refined, Vertex};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// The values of a texture at points: red, green and blue.
 pub type Values<'a> = dyn FnMut(Handle<Texture>, &[TexturePoint]) -> Result<Vec<[f32; 4]>> + 'a;
@@ -24,31 +24,27 @@ pub fn displacing(scene: &Scene) -> Vec<Handle<Texture>> {
     placed.filter_map(|mesh| Some(mesh.displacement?.texture)).collect()
 }
 
-/// The scene with its displaced meshes in place of those that say how they are displaced.
+/// Puts displaced meshes in place of those that say how they are displaced.
 ///
 /// # Errors
 /// When a mesh is cut into more triangles than it may have, and those of `values`.
-pub fn displace(scene: &Scene, values: &mut Values<'_>) -> Result<Scene> {
-    let mut displaced = scene.clone();
-    for instance in &scene.instances {
-        let mesh = &scene.meshes[instance.mesh];
+pub fn displace(scene: &mut Scene, values: &mut Values<'_>) -> Result<()> {
+    // A mesh that is placed several times is displaced once
+    let meshes: BTreeSet<_> = scene.instances.iter().map(|instance| instance.mesh).collect();
+    for handle in meshes {
+        let mesh = &scene.meshes[handle];
         let Some(displacement) = &mesh.displacement else { continue };
-        // A mesh that is placed several times is displaced once
-        if displaced.meshes[instance.mesh].displacement.is_none() {
-            continue;
-        }
-        let name = scene.meshes.name(instance.mesh);
-        let placed = scene.instances.iter().filter(|other| other.mesh == instance.mesh);
-        let nearest = nearest(mesh, placed, &scene.camera).unwrap_or(instance);
+        let placed = scene.instances.iter().filter(|instance| instance.mesh == handle);
+        let Some(nearest) = nearest(mesh, placed, &scene.camera) else { continue };
         let world = nearest.world_from_object;
         let refined =
             refine(mesh, displacement, &world, &scene.camera, &scene.film).map_err(|mut error| {
-                error.message = format!("mesh `{name}`: {}", error.message);
+                error.message = format!("mesh `{}`: {}", scene.meshes.name(handle), error.message);
                 error
             })?;
-        displaced.meshes[instance.mesh] = moved(mesh, refined, displacement, &world, values)?;
+        scene.meshes[handle] = moved(mesh, refined, displacement, &world, values)?;
     }
-    Ok(displaced)
+    Ok(())
 }
 
 /// The instance of a mesh that comes nearest to the camera.

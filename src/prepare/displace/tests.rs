@@ -27,7 +27,9 @@ fn scene(mesh: Mesh, edge: EdgeLimit, direction: DisplacementDirection, height: 
 fn displaced(scene: &Scene, value: impl Fn(&TexturePoint) -> [f32; 3]) -> Mesh {
     let mut values =
         |_, points: &[TexturePoint]| Ok(points.iter().map(&value).map(|[r, g, b]| [r, g, b, 1.0]).collect());
-    displace(scene, &mut values).unwrap().meshes.iter().next().unwrap().2.clone()
+    let mut scene = scene.clone();
+    displace(&mut scene, &mut values).unwrap();
+    scene.meshes.iter().next().unwrap().2.clone()
 }
 
 fn corners(mesh: &Mesh, triangle: &[u32; 3]) -> [glam::DVec3; 3] {
@@ -183,7 +185,7 @@ fn the_bound_of_triangles_is_an_error_before_it_is_passed() {
     let mut scene = scene(Mesh::unit_sphere(), EdgeLimit::Length(1e-6), NORMAL, 0.1);
     let (handle, ..) = scene.meshes.iter().next().unwrap();
     scene.meshes[handle].displacement.as_mut().unwrap().most_triangles = 5000;
-    let error = displace(&scene, &mut |_, _| panic!("nothing is asked for")).unwrap_err();
+    let error = displace(&mut scene, &mut |_, _| panic!("nothing is asked for")).unwrap_err();
     assert_eq!(error.message, "mesh `hills`: displacement cuts it into more than 5000 triangles");
     assert!(error.help.unwrap().contains("max_triangles"));
 }

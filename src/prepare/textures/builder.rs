@@ -4,7 +4,7 @@ use super::image::{brightness, levels, record};
 use super::range::Range;
 use super::shape::{Input, Shape};
 use crate::layout::TextureInput;
-use crate::prepare::atlas::{Atlas, Place, StackPlace};
+use crate::prepare::atlas::{Atlas, Placed, StackPlace};
 use crate::scene::{Channel, GlslTexture, Handle, Scene, Texture, Value};
 use glam::{Vec3, Vec4};
 use std::collections::{BTreeMap, HashMap};
@@ -21,7 +21,7 @@ pub(super) struct Node {
 pub(super) struct Builder<'a> {
     pub scene: &'a Scene,
     pub atlas: Atlas,
-    pub places: BTreeMap<Handle<Texture>, Place>,
+    pub places: BTreeMap<Handle<Texture>, Placed>,
     pub users: Vec<&'a GlslTexture>,
     pub stacks: BTreeMap<Handle<Texture>, StackPlace>,
     pub shapes: Vec<Shape>,
@@ -58,12 +58,12 @@ impl<'a> Builder<'a> {
             Texture::Constant(color) => self.constant(*color),
             Texture::VertexColor(channel) => self.vertex_color(*channel),
             Texture::Image(texture) => {
-                let place = self.places[&handle];
+                let placed = &self.places[&handle];
                 let image = &scene.images[texture.image];
                 let mut words = Words::default();
-                words.push(record(texture, image, self.atlas.address(place)));
-                let levels = levels(texture, image, &self.atlas, place);
-                let shape = Shape::Image(place.format, !levels.is_empty());
+                words.push(record(texture, image, self.atlas.address(placed.picture)));
+                let levels = levels(image, &self.atlas, placed);
+                let shape = Shape::Image(placed.picture.format, !levels.is_empty());
                 levels.into_iter().for_each(|level| words.push(level));
                 self.keep(shape, words, None, brightness(texture, image))
             }

@@ -4,7 +4,7 @@ use super::range::Range;
 use crate::layout::{CHANNEL_A, CHANNEL_B, CHANNEL_G, CHANNEL_R, CHANNEL_RGB, CHANNEL_SHIFT};
 use crate::layout::{FLAG_INVERT, FLAG_NEAREST, FLAG_OCTAHEDRAL, ImageLevel, ImageTexture, LEVELS_SHIFT};
 use crate::layout::{WRAP_BLACK, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT, WRAP_V_SHIFT};
-use crate::prepare::atlas::{Atlas, Place, Reader, half_size, level_count};
+use crate::prepare::atlas::{Atlas, Placed, Reader, half_size, level_count};
 use crate::scene::{self, Channel, Handle, Scene, TexelFilter, Texture, UvTransform, Wrap};
 use glam::DVec2;
 
@@ -66,19 +66,13 @@ pub(in crate::prepare) fn picture_mean(
 }
 
 /// The levels of its pyramid, the picture first, which follow its record; none when it is filtered otherwise.
-pub(super) fn levels(
-    texture: &scene::ImageTexture,
-    image: &scene::Image,
-    atlas: &Atlas,
-    place: Place,
-) -> Vec<ImageLevel> {
-    let above = atlas.levels(texture);
-    if above.is_empty() || texture.filter != TexelFilter::Trilinear {
+pub(super) fn levels(image: &scene::Image, atlas: &Atlas, placed: &Placed) -> Vec<ImageLevel> {
+    if placed.above.is_empty() {
         return Vec::new();
     }
     let mut size = [image.width, image.height];
-    let mut levels = Vec::with_capacity(above.len() + 1);
-    for &place in [place].iter().chain(above) {
+    let mut levels = Vec::with_capacity(placed.above.len() + 1);
+    for &place in std::iter::once(&placed.picture).chain(&placed.above) {
         let (base, pitch) = atlas.address(place);
         levels.push(ImageLevel { base, pitch, size });
         size = half_size(size);

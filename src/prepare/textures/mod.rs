@@ -16,7 +16,7 @@ mod shape;
 mod stack;
 mod user;
 
-use super::atlas::Atlas;
+use super::atlas::{Atlas, Layout};
 use super::{Prepared, rows};
 use crate::scene::{Handle, MappingKind, Scene, TexelFilter, Texture, Warp, Wrap};
 use crate::{Error, Result};
@@ -31,8 +31,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 pub struct PreparedTextures {
     /// Words of the records.
     pub records: Vec<[u32; 4]>,
-    /// Words of the atlas pages.
-    pub texels: Vec<[u32; 4]>,
+    /// Where the texels of pictures are.
+    pub atlas: Atlas,
     /// The virtual file `generated/textures.glsl`.
     pub glsl: String,
     /// The reference of each texture, by its handle.
@@ -79,7 +79,7 @@ pub fn prepare_textures(scene: &Scene, asked: &[Handle<Texture>]) -> Result<Prep
     Ok(textures)
 }
 
-/// Fills `textures`, `texels` and `texture_glsl`.
+/// Fills `textures`, `atlas` and `texture_glsl`.
 pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
     let materials = || scene.materials.iter().map(|(_, _, material)| material);
     let maps = materials().filter_map(|material| Some(material.detail.normal_map?.texture));
@@ -88,7 +88,7 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<References> {
     out.features.footprint |= textures.footprint;
     (out.features.vertex_color, out.features.uv1) = (textures.vertex_color, textures.uv1);
     out.features.timed_textures = scene.textures.iter().any(|(_, _, texture)| sees_time(texture));
-    (out.textures, out.texels, out.texture_glsl) = (textures.records, textures.texels, textures.glsl);
+    (out.textures, out.atlas, out.texture_glsl) = (textures.records, textures.atlas, textures.glsl);
     Ok(references)
 }
 
@@ -133,18 +133,16 @@ fn build(scene: &Scene, uses: &[Use], seen: Vec<Handle<Texture>>) -> Result<(Pre
         return Err(Error::scene(Texture::endless(scene.textures.name(handle))));
     }
     let seen = with_inputs(scene, seen);
-    let mut atlas = Atlas::default();
+    let mut layout = Layout::default();
     let mut places = BTreeMap::new();
     let mut stacks = BTreeMap::new();
     for (handle, _, texture) in scene.textures.iter() {
         if let Texture::Image(texture) = texture {
-            places.insert(handle, atlas.place(scene, texture)?);
-            if texture.filter == TexelFilter::Trilinear && seen.contains(&handle) {
-                atlas.pyramid(scene, texture)?;
-            }
+            let pyramid = texture.filter == TexelFilter::Trilinear && seen.contains(&handle);
+            places.insert(handle, layout.place(scene, texture, pyramid)?);
         }
         if let Texture::Stack(stack) = texture {
-            stacks.insert(handle, atlas.stack(scene, stack)?);
+            stacks.insert(handle, layout.stack(scene, stack)?);
         }
     }
     let has_noise = scene.textures.iter().any(|(_, _, texture)| reads_noise(texture));
@@ -153,7 +151,7 @@ fn build(scene: &Scene, uses: &[Use], seen: Vec<Handle<Texture>>) -> Result<(Pre
     let done = vec![None; scene.textures.len()];
     let mut builder = Builder {
         scene,
-        atlas,
+        atlas: layout.finish(),
         places,
         users: Vec::new(),
         stacks,
@@ -185,7 +183,7 @@ fn build(scene: &Scene, uses: &[Use], seen: Vec<Handle<Texture>>) -> Result<(Pre
     }
     let textures = PreparedTextures {
         records: words,
-        texels: atlas.into_words(),
+        atlas,
         glsl: glsl(
             &shapes,
             &roots,

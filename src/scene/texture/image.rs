@@ -2,6 +2,7 @@
 
 use crate::scene::Handle;
 use glam::{Affine2, Mat2, Vec2};
+use std::sync::LazyLock;
 
 /// How a value between texels is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -122,13 +123,21 @@ pub struct Image {
 }
 
 impl Image {
+    /// A picture without texels.
+    pub const EMPTY: Self = Self { width: 0, height: 0, texels: Texels::Rgba8(Vec::new()) };
+
     /// The texel of an index as red, green, blue and alpha, 1 where an integer is largest. Colours of sRGB become linear; alpha
     /// is linear always.
     pub fn linear(&self, index: usize, space: ColorSpace) -> [f32; 4] {
-        let [r, g, b, a] = match &self.texels {
-            Texels::Rgba8(texels) => texels[index].map(|c| f32::from(c) / 255.0),
-            Texels::Rgba16(texels) => texels[index].map(|c| f32::from(c) / 65535.0),
-            Texels::RgbaF32(texels) => texels[index],
+        let [r, g, b, a] = match (&self.texels, space) {
+            (Texels::Rgba8(texels), ColorSpace::Srgb) => {
+                let [r, g, b, a] = texels[index];
+                let [r, g, b] = [r, g, b].map(|c| SRGB[usize::from(c)]);
+                return [r, g, b, f32::from(a) / 255.0];
+            }
+            (Texels::Rgba8(texels), ColorSpace::Linear) => texels[index].map(|c| f32::from(c) / 255.0),
+            (Texels::Rgba16(texels), _) => texels[index].map(|c| f32::from(c) / 65535.0),
+            (Texels::RgbaF32(texels), _) => texels[index],
         };
         match space {
             ColorSpace::Srgb => [srgb_decode(r), srgb_decode(g), srgb_decode(b), a],
@@ -145,6 +154,9 @@ impl Image {
         }
     }
 }
+
+/// What the 256 bytes of sRGB are in linear light.
+static SRGB: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|c| srgb_decode(c as f32 / 255.0)));
 
 /// IEC 61966-2-1.
 fn srgb_decode(c: f32) -> f32 {

@@ -1,6 +1,6 @@
 //! Pictures of half the size, in linear light.
 
-use super::atlas::{Reader, half_size};
+use super::{Reader, half_size};
 use crate::scene::{Image, Texels};
 
 /// A picture half as wide and half as high, rounded up: each of its texels is the mean of what it covers, so that the mean of
