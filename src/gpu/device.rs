@@ -1,6 +1,7 @@
 //! Choosing a device and opening it.
 
 use super::instance::{Instance, door, no_driver};
+use super::pipeline::Pipelines;
 use super::{check, limits};
 use crate::{Error, Result};
 use ash::vk;
@@ -72,6 +73,7 @@ pub struct DeviceChoice {
 /// An open device with one compute queue.
 pub struct Gpu {
     pub(super) inner: Arc<Inner>,
+    pub(super) pipelines: Pipelines,
 }
 
 /// What buffers, pipelines and tickets keep alive.
@@ -140,6 +142,7 @@ impl Gpu {
         })
         .map_err(|error| Error::device(format!("set up device memory: {error}")))?;
         Ok(Self {
+            pipelines: Pipelines::default(),
             inner: Arc::new(Inner {
                 device,
                 queue: Mutex::new(queue),

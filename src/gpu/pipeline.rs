@@ -6,8 +6,9 @@ use crate::layout::{BINDINGS, Backend, Binding, BindingKind, WORD_BYTES, WORKGRO
 use crate::shader::{BindingClass, Scan, Spirv, scan};
 use crate::{Error, Result};
 use ash::vk;
+use std::collections::HashMap;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// The descriptor layout that all pipelines and bindings of a back end share.
 pub struct Layout {
@@ -22,6 +23,9 @@ pub struct Pipeline {
     pub(super) raw: vk::Pipeline,
     pub(super) layout: Arc<Layout>,
 }
+
+/// Pipelines that are alive, by back end and hash of the kernel: drivers compile what they are given, as often as they are given it.
+pub(super) type Pipelines = Mutex<HashMap<(Backend, blake3::Hash), Weak<Pipeline>>>;
 
 /// One descriptor set with every binding of the table; what is not given is a dummy of one word.
 pub struct Bindings {
@@ -118,13 +122,27 @@ impl Gpu {
         Ok(Arc::new(layout))
     }
 
-    /// Makes a pipeline of a kernel.
+    /// The pipeline of a kernel: the one that there is, as long as anything holds it, or else a new one.
     ///
     /// # Errors
     ///
     /// When the kernel uses a resource that the table of bindings does not have, has workgroups of another size, or the
     /// driver refuses it.
     pub fn pipeline(&self, layout: &Arc<Layout>, spirv: &Spirv) -> Result<Arc<Pipeline>> {
+        let key = (layout.backend, blake3::hash(bytemuck::cast_slice(spirv.words())));
+        let known = || self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = known().get(&key).and_then(Weak::upgrade) {
+            return Ok(pipeline);
+        }
+        // Other threads need not wait for the driver
+        let pipeline = self.make_pipeline(layout, spirv)?;
+        let mut known = known();
+        known.retain(|_, pipeline| pipeline.strong_count() > 0);
+        known.insert(key, Arc::downgrade(&pipeline));
+        Ok(pipeline)
+    }
+
+    fn make_pipeline(&self, layout: &Arc<Layout>, spirv: &Spirv) -> Result<Arc<Pipeline>> {
         let name = &spirv.key().file;
         confirm(&scan(spirv.words())?, layout.backend).map_err(|error| error.in_file(Path::new(name)))?;
         let device = &self.inner.device;

@@ -9,6 +9,7 @@ use crate::shader::{Compiler, KernelKey};
 use std::sync::Arc;
 
 /// One pipeline a stage of the wave.
+#[derive(Clone)]
 pub struct Kernels {
     layout: Arc<Layout>,
     pipelines: Vec<(Stage, Arc<Pipeline>)>,

@@ -164,6 +164,11 @@ impl Renderer {
         Ok(Self { gpu, kernels, resident, frame, film_frame, slicing })
     }
 
+    /// The kernels of the scene. Who holds a copy of them spares the next renderer that needs the same ones compiling them.
+    pub fn kernels(&self) -> &Kernels {
+        &self.kernels
+    }
+
     /// Renders samples `first_sample..first_sample + spp` of every pixel. `watch` is told after every slice.
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use dapple::film::{Film, Picture};
 use dapple::gpu::{DeviceChoice, DeviceType, Gpu};
-use dapple::render::{Next, Options, Renderer};
+use dapple::render::{Kernels, Next, Options, Renderer};
 use dapple::scene::{
     Camera, Conductor, Dielectric, Emission, Environment, Fresnel, Handle, Image, ImageTexture, Instance,
     Light, Material, Mesh, Projection, Roughness, Scene, Shape, ShapeKind, Surface, Texture, Value,
@@ -40,11 +40,13 @@ pub fn options() -> Options {
 
 /// A scene on the device.
 pub fn open(scene: &Scene, options: Options) -> Renderer {
-    static COMPILER: OnceLock<Mutex<Compiler>> = OnceLock::new();
-    let compiler =
-        COMPILER.get_or_init(|| Mutex::new(Compiler::new(sources(), CacheOptions::from_environment())));
-    let mut compiler = compiler.lock().unwrap_or_else(PoisonError::into_inner);
-    Renderer::open(gpu(), &mut compiler, scene.clone(), options).unwrap()
+    // Most tests need the kernels of others: the driver compiles them once
+    static KEPT: Mutex<Vec<Kernels>> = Mutex::new(Vec::new());
+    // What is compiled is kept on disk
+    let mut compiler = Compiler::new(sources(), CacheOptions::from_environment());
+    let renderer = Renderer::open(gpu(), &mut compiler, scene.clone(), options).unwrap();
+    KEPT.lock().unwrap_or_else(PoisonError::into_inner).push(renderer.kernels().clone());
+    renderer
 }
 
 /// All samples of a scene.
