@@ -1,10 +1,11 @@
 // A camera with a lens of several elements (Kolb, Mitchell and Hanrahan 1995, section 3).
 #include "base/random.glsl"
+#include "base/spectrum.glsl"
 #include "camera/lens_trace.glsl"
 #include "camera/ray.glsl"
 
-// 1 / λ² of red, green and blue: the dominant wavelengths of the primaries of Rec. 709, 0.6114, 0.5491 and 0.4643 µm.
-const vec3 LENS_INVERSE_SQUARES = vec3(2.67519, 3.31663, 4.63877);
+// 1 / λ² of red, green and blue, in µm⁻².
+const vec3 LENS_INVERSE_SQUARES = 1.0 / (COLOR_WAVELENGTHS * COLOR_WAVELENGTHS);
 
 // Where on the plane of the last vertex light for a film point may come through: a corner, and the way to the other.
 // The bounds are made for points on the x axis of the film and turned to where the point is.
@@ -25,8 +26,7 @@ CameraRay lens_system_sample(vec2 film_01, vec2 lens_u01, SampleKey key)
     pupil = vec2(pupil.x * along.x - pupil.y * along.y, pupil.x * along.y + pupil.y * along.x);
 #ifdef LENS_DISPERSION
     // One colour a path
-    uint channel = min(uint(3.0 * sample_1d(key, DIMENSION_WAVELENGTH)), 2u);
-    vec3 color = vec3(channel == 0u, channel == 1u, channel == 2u) * 3.0;
+    vec3 color = color_mask(color_pick(sample_1d(key, DIMENSION_WAVELENGTH))) * 3.0;
     float inverse_square = dot(color, LENS_INVERSE_SQUARES) / 3.0;
 #else
     vec3 color = vec3(1.0);

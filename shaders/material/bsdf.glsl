@@ -23,6 +23,9 @@ struct Bsdf {
     uint through_table; // word of the table of what it lets through
     uint inner_table;   // word of that of what leaves metal under it
     float through_mean; // what it lets through, when smooth, of light from everywhere
+    // And of glass with dispersion
+    vec3 indices;       // index of refraction of red, green and blue
+    bool disperses;     // they differ, and the path has all colours
 };
 
 // Where a channel of both colours of a material together is above 1, both are scaled down, so that no energy is made.

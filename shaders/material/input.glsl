@@ -13,13 +13,14 @@ struct Material {
     uint kind;  // MATERIAL_…
     uint mode;  // FRESNEL_…, or DIELECTRIC_…
     uint flags; // MATERIAL_…
+    float dispersion; // 1 / Abbe number
     uint at;    // word of its head
 };
 
 Material material_fetch(uint i)
 {
     MaterialHead head = material_head_unpack(fetch_materials(i * MATERIAL_WORDS));
-    return Material(head.kind, head.mode, head.flags, i * MATERIAL_WORDS);
+    return Material(head.kind, head.mode, head.flags, head.dispersion, i * MATERIAL_WORDS);
 }
 
 // Whether a texture drives an input, or one of its two numbers, of some material of the scene. Where none does, drivers

@@ -351,7 +351,7 @@ struct MaterialHead {
     uint kind; // MATERIAL_… kind
     uint mode; // FRESNEL_… rule of a conductor, or DIELECTRIC_… mode
     uint flags; // MATERIAL_… flags
-    uint spare; // room
+    float dispersion; // 1 / Abbe number of glass; 0 = all colours have one index
 };
 const uint MATERIAL_HEAD_WORDS = 1u;
 MaterialHead material_head_unpack(uvec4 w0)
@@ -360,7 +360,7 @@ MaterialHead material_head_unpack(uvec4 w0)
     r.kind = w0.x;
     r.mode = w0.y;
     r.flags = w0.z;
-    r.spare = w0.w;
+    r.dispersion = uintBitsToFloat(w0.w);
     return r;
 }
 

@@ -1,6 +1,7 @@
 // Light that a surface gets straight from a lamp or the environment. Switches of the variant: GEOMETRIC_VETO, HAS_MEDIUM.
 #include "stages/event.glsl"
 #include "material/material.glsl"
+#include "material/dispersion.glsl"
 #include "material/medium.glsl"
 #include "light/light.glsl"
 #include "stages/relief.glsl"
@@ -15,7 +16,7 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
     float pick = sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_LIGHT_PICK));
     LightSample light = light_sample(surface.position, pick, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_LIGHT)));
     vec3 wi = basis_to_local(basis, light.wi);
-    vec3 f = bsdf_eval(bsdf, wo, wi) * abs(wi.z);
+    vec3 f = dispersed_eval(bsdf, wo, wi) * abs(wi.z);
     if (!(light.pdf > 0.0) || max_component(f) <= 0.0) return;
 #if defined(HAS_BUMP) || defined(HAS_NORMAL_MAP)
     if (wo.z * wi.z > 0.0) f *= softening(surface, light.wi);
@@ -32,7 +33,7 @@ void sample_direct_light(Path path, Surface surface, Bsdf bsdf, Basis basis, vec
     if (!light.infinite) light.radiance *= medium_transmittance(medium, distance(surface.position, light.point));
 #endif
     // The path ends here when `last`: then the BSDF will not look for the light.
-    float weight = light.delta || last ? 1.0 : power_heuristic(light.pdf, bsdf_pdf(bsdf, wo, wi));
+    float weight = light.delta || last ? 1.0 : power_heuristic(light.pdf, dispersed_pdf(bsdf, wo, wi));
     vec3 radiance = limited(path.throughput * f * light.radiance * (weight / light.pdf), path.depth + 1u);
     vec3 origin = ray_origin(surface, side);
     vec3 target = offset_ray_origin(light.point, light.normal, light.reach);

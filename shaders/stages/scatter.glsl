@@ -2,6 +2,7 @@
 #include "stages/event.glsl"
 #include "stages/relief.glsl"
 #include "material/material.glsl"
+#include "material/dispersion.glsl"
 #include "material/medium.glsl"
 
 #ifdef HAS_FOOTPRINT
@@ -24,7 +25,8 @@ void bend_cone(inout WaveRay ray, Surface surface, BsdfSample s, vec3 wo)
 bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, inout WaveRay ray)
 {
     float lobe = sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_LOBE));
-    BsdfSample s = bsdf_sample(bsdf, wo, lobe, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_BSDF)));
+    uint color = COLOR_ALL;
+    BsdfSample s = dispersed_sample(bsdf, color, wo, lobe, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_BSDF)));
     vec3 wi = basis_to_world(basis, s.wi);
     float side = dot(wi, surface.geometric);
     if (max_component(s.weight) <= 0.0 || !s.through && !may_reflect(surface, side)) return false;
@@ -35,6 +37,7 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
     if (!s.through && s.pdf > 0.0) s.weight *= softening(surface, wi);
 #endif
     path.throughput *= s.weight;
+    path.flags |= color << PATH_COLOR_SHIFT;
     path.pdf = s.pdf;
     if (s.pdf > 0.0) path.diffuse_depth += 1u;
 #ifdef HAS_GLASS

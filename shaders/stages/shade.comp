@@ -1,5 +1,5 @@
 // One scattering event of every path in the queue: emission, light sampling, and the next direction.
-// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_GLASS, HAS_MEDIUM, HAS_FRONT_ONLY, HAS_MIX, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
+// Switches of the variant: HAS_ENVIRONMENT, HAS_LIGHTS, HAS_GLASS, HAS_MEDIUM, HAS_DISPERSION, HAS_FRONT_ONLY, HAS_MIX, HAS_FOOTPRINT, ROULETTE, GEOMETRIC_VETO,
 // TRANSPARENT_FILM and those of the menus.
 #include "stages/direct.glsl"
 #include "stages/scatter.glsl"
@@ -66,6 +66,11 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
     facing_normal = front ? surface.normal : -surface.normal;
 #endif
     Bsdf bsdf = material_bsdf(material, context);
+#ifdef HAS_DISPERSION
+    // A lens with dispersion has drawn the colour from the same number: what is left of it is the place in the band
+    float place = fract(3.0 * sample_1d(path.key, DIMENSION_WAVELENGTH));
+    disperse(bsdf, material.dispersion, (path.flags & PATH_COLOR) >> PATH_COLOR_SHIFT, place);
+#endif
     vec3 emitted = vec3(0.0);
     if (front || (shining.flags & MATERIAL_TWO_SIDED) != 0u) {
         // What a bounce finds is what light sampling would have found: lamps are sampled at points

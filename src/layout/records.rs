@@ -249,8 +249,8 @@ records! {
         mode: u32,
         /// MATERIAL_… flags
         flags: u32,
-        /// room
-        spare: u32,
+        /// 1 / Abbe number of glass; 0 = all colours have one index
+        dispersion: f32,
     }
 
     /// A colour of a material. A texture is a reference, whose bits `prepare` and the code that it generates know, or NONE.

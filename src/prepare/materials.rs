@@ -143,6 +143,7 @@ impl Builder<'_, '_> {
         self.roughness(INPUT_ROUGHNESS, MATERIAL_SQUARED, &dielectric.roughness);
         self.color(INPUT_ABSORPTION, &Value::Constant(dielectric.absorption));
         self.features.medium |= dielectric.absorption != Vec3::ZERO;
+        self.dispersion(dielectric.abbe.filter(|_| !dielectric.thin));
     }
 
     fn principled(&mut self, principled: &Principled) {
@@ -160,9 +161,15 @@ impl Builder<'_, '_> {
         self.color(INPUT_SHEEN, &principled.sheen_color);
         self.numbers(INPUT_SHEEN_ROUGHNESS, [principled.sheen_roughness, NO_NUMBER]);
         self.features.medium |= solid && principled.absorption != Vec3::ZERO;
+        self.dispersion(principled.abbe.filter(|_| solid));
         self.features.transmission |= principled.transmission != NO_NUMBER;
         self.features.clearcoat |= principled.clearcoat != NO_NUMBER;
         self.features.sheen |= principled.sheen_color != Value::Constant(Vec3::ZERO);
+    }
+
+    fn dispersion(&mut self, abbe: Option<f32>) {
+        self.features.dispersion |= abbe.is_some();
+        self.record.head.dispersion = abbe.map_or(0.0, f32::recip);
     }
 
     fn mix(&mut self, mix: &Mix) {

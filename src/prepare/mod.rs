@@ -197,6 +197,8 @@ pub struct Features {
     pub normal_map: bool,
     /// Glass that absorbs.
     pub medium: bool,
+    /// Some glass bends each colour in its own way.
+    pub dispersion: bool,
     /// A texture that depends on the width of a pixel.
     pub footprint: bool,
     /// A texture that depends on the colours of vertices.

@@ -237,6 +237,7 @@ pub fn defines(
         flag("HAS_SHEEN", features.sheen);
         flag("HAS_MIX", features.mix_depth > 0);
         flag("HAS_MEDIUM", features.medium);
+        flag("HAS_DISPERSION", features.dispersion);
         flag("HAS_FOOTPRINT", features.footprint);
         flag("HAS_BUMP", features.bump);
         flag("HAS_NORMAL_MAP", features.normal_map);

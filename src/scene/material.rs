@@ -82,6 +82,9 @@ pub struct Dielectric {
     pub ior: Value<f32>,
     /// GGX widths.
     pub roughness: Roughness,
+    /// Abbe number (n_d − 1) / (n_F − n_C), above 0: each colour has an index of its own, by Cauchy's formula, and `ior` is that of the
+    /// d line; none = all colours have the same.
+    pub abbe: Option<f32>,
     /// Beer absorption a scene unit, per channel (Beer–Lambert law). What is inside is the same everywhere: no texture of a
     /// surface says what it is.
     pub absorption: Vec3,
@@ -116,7 +119,7 @@ pub struct CoatedConductor {
     pub interface: Interface,
 }
 
-/// The model of glTF 2.0 (appendix B) with its extensions ior, specular, transmission, volume, clearcoat and sheen.
+/// The model of glTF 2.0 (appendix B) with its extensions ior, specular, transmission, volume, dispersion, clearcoat and sheen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Principled {
     /// Reflectance of the diffuse base and of metal; colour of light that goes through. In [0, 1].
@@ -133,6 +136,8 @@ pub struct Principled {
     pub specular_color: Value<Vec3>,
     /// Part of the base that lets light through and does not scatter it, in [0, 1].
     pub transmission: Value<f32>,
+    /// As [`Dielectric::abbe`].
+    pub abbe: Option<f32>,
     /// Beer absorption a scene unit inside, per channel.
     pub absorption: Vec3,
     /// A sheet without an inside: light that goes through is not bent.
@@ -159,6 +164,7 @@ impl Default for Principled {
             specular: Value::Constant(1.0),
             specular_color: Value::Constant(Vec3::ONE),
             transmission: none,
+            abbe: None,
             absorption: Vec3::ZERO,
             thin: false,
             clearcoat: none,

@@ -247,7 +247,7 @@ pub fn conductor(reflectance: f32, alpha: f32, fresnel: Fresnel) -> Surface {
 /// Clear material.
 pub fn glass(ior: f32, alpha: f32, absorption: Vec3, thin: bool) -> Surface {
     let (ior, roughness) = (Value::Constant(ior), Roughness::alpha(alpha));
-    Surface::Dielectric(Dielectric { ior, roughness, absorption, thin })
+    Surface::Dielectric(Dielectric { ior, roughness, abbe: None, absorption, thin })
 }
 
 /// A sphere with its north pole up and longitude 0 towards +x.

@@ -18,7 +18,13 @@ fn diffuse(color: f32) -> Surface {
 fn glass(ior: f32, alpha: [f32; 2], absorption: f32) -> Surface {
     let [u, v] = alpha.map(Value::Constant);
     let (ior, roughness) = (Value::Constant(ior), Roughness::alphas(u, v));
-    Surface::Dielectric(Dielectric { ior, roughness, absorption: Vec3::splat(absorption), thin: false })
+    Surface::Dielectric(Dielectric {
+        ior,
+        roughness,
+        abbe: None,
+        absorption: Vec3::splat(absorption),
+        thin: false,
+    })
 }
 
 pub fn material(scene: &mut Scene, surface: Surface, light: Option<Value<Vec3>>) -> Handle<Material> {
@@ -175,6 +181,7 @@ fn layers() -> Scene {
         specular: number,
         specular_color: Value::Texture(picture),
         transmission: number,
+        abbe: None,
         absorption: Vec3::ONE,
         thin: false,
         clearcoat: number,
@@ -335,7 +342,7 @@ fn textured() -> Scene {
     let gold = material(&mut scene, Surface::Conductor(gold), None);
     place_shape(&mut scene, gold, sphere());
     let ior = Value::Texture(float);
-    let glass = Dielectric { ior, roughness, absorption: Vec3::ONE, thin: false };
+    let glass = Dielectric { ior, roughness, abbe: Some(30.0), absorption: Vec3::ONE, thin: false };
     let glass = material(&mut scene, Surface::Dielectric(glass), None);
     place_shape(&mut scene, glass, sphere());
     place_triangle(&mut scene, lamp, 1);

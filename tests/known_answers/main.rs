@@ -13,6 +13,7 @@ mod camera;
 mod cones;
 mod corners;
 mod curved;
+mod dispersion;
 mod displacement;
 mod emission;
 mod environment;

@@ -107,7 +107,7 @@ fn an_index_from_textures_is_that_index() {
     // Glass over black: only what is reflected is seen
     let glass = |ior| {
         let (absorption, roughness) = (Vec3::ZERO, Roughness::alpha(0.0));
-        Surface::Dielectric(Dielectric { ior, roughness, absorption, thin: false })
+        Surface::Dielectric(Dielectric { ior, roughness, abbe: None, absorption, thin: false })
     };
     let seen = |make: &dyn Fn(&mut Scene) -> Value<f32>| {
         in_the_sky(|s| {

@@ -67,7 +67,7 @@ impl Lobe {
     }
 
     /// The header and what is behind it: points, then the tables.
-    fn inputs(&self, wo: [f32; 3], points: impl Iterator<Item = Word>) -> (Vec<Word>, String) {
+    pub fn inputs(&self, wo: [f32; 3], points: impl Iterator<Item = Word>) -> (Vec<Word>, String) {
         let mut inputs = self.header(wo);
         inputs.extend(points);
         let glsl = format!("#define TABLES {}u\n{BSDF}", inputs.len());
@@ -76,7 +76,7 @@ impl Lobe {
     }
 }
 
-const HEADER: usize = 10;
+pub const HEADER: usize = 10;
 
 const BSDF: &str = "
     #define fetch_materials(i) fetch_points(TABLES + (i))
@@ -102,7 +102,8 @@ const BSDF: &str = "
         vec3 coat = vector(6u);
         InterfaceInput of = interface_input_unpack(fetch_points(9u));
         return Bsdf(a.x, a.y, vector(1u), vector(2u), vector(3u), uintBitsToFloat(a.z), uintBitsToFloat(a.w), vector(4u).xy,
-                    mixed.x, mixed.y, mixed.z, coat.x, coat.yy, vector(7u), coat.z, of.through_table, of.inner_table, of.through_mean);
+                    mixed.x, mixed.y, mixed.z, coat.x, coat.yy, vector(7u), coat.z, of.through_table, of.inner_table, of.through_mean,
+                    vec3(uintBitsToFloat(a.z)), false);
     }
 ";
 

@@ -12,6 +12,7 @@ mod cone;
 mod curved_light;
 mod curved_surface;
 mod direction;
+mod dispersion;
 mod flat_light;
 mod fresnel;
 mod geometry;

@@ -38,6 +38,7 @@ fn glass_scene() -> Scene {
             Surface::Dielectric(Dielectric {
                 ior: Value::Constant(1.5),
                 roughness: Roughness::alpha(0.0),
+                abbe: None,
                 absorption: Vec3::new(0.1, 0.3, 0.6),
                 thin: false,
             }),

@@ -24,6 +24,7 @@ const READ: &[&str] = &[
     "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_materials_variants",
+    "KHR_materials_dispersion",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",

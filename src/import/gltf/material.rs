@@ -10,13 +10,14 @@ use crate::scene::{
 };
 use glam::{Vec3, Vec4};
 
+/// Least Abbe number.
+const LEAST_ABBE: f32 = 1.0;
 /// Largest index of refraction; an ior of 0 means one without end.
 const MAX_INDEX: f32 = 100.0;
 /// Extensions of materials that are left out.
-const LEFT_OUT: [&str; 5] = [
+const LEFT_OUT: [&str; 4] = [
     "KHR_materials_anisotropy",
     "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
     "KHR_materials_iridescence",
     "KHR_materials_pbrSpecularGlossiness",
 ];
@@ -181,6 +182,11 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         principled.thin = false;
+        if let Some(dispersion) = json.extension("KHR_materials_dispersion")? {
+            // 20 over the Abbe number
+            let dispersion = dispersion.number_or("dispersion", 0.0)?;
+            principled.abbe = (dispersion > 0.0).then(|| (20.0 / dispersion).clamp(LEAST_ABBE, f32::MAX));
+        }
         let color = Vec3::from(self.clamped(&volume, "attenuationColor", [1.0; 3])?);
         let distance = volume.number_or("attenuationDistance", f32::INFINITY)?;
         if distance <= 0.0 {

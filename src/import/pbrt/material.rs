@@ -83,18 +83,8 @@ impl Reader<'_> {
                 let widths = ["uroughness", "vroughness", "roughness"];
                 Surface::Conductor(self.conductor(from, ["eta", "k", "reflectance"], widths)?)
             }
-            "dielectric" => Surface::Dielectric(Dielectric {
-                ior: Value::Constant(self.index(from, "eta")?),
-                roughness: self.roughness(from, ["uroughness", "vroughness", "roughness"], 0.0)?,
-                absorption: Vec3::ZERO,
-                thin: false,
-            }),
-            "thindielectric" => Surface::Dielectric(Dielectric {
-                ior: Value::Constant(self.index(from, "eta")?),
-                roughness: Roughness::alpha(0.0),
-                absorption: Vec3::ZERO,
-                thin: true,
-            }),
+            "dielectric" => Surface::Dielectric(self.dielectric(from, false)?),
+            "thindielectric" => Surface::Dielectric(self.dielectric(from, true)?),
             "mix" => self.mix(from)?,
             "interface" => return Ok(interface()),
             "coateddiffuse" => self.coated_diffuse(from)?,
@@ -165,14 +155,24 @@ impl Reader<'_> {
         }
     }
 
-    /// An index of refraction: a number, or a spectrum, of which green counts.
-    fn index(&mut self, from: &Parameters, name: &'static str) -> Result<f32> {
-        let index = match from.float(name, Limits::Above(0.0))? {
-            Some(index) => index,
-            None => self.rgb_or(from, name, Role::Unbounded, Vec3::splat(USUAL_INDEX))?.y,
+    fn dielectric(&mut self, from: &Parameters, thin: bool) -> Result<Dielectric> {
+        let (index, abbe) = self.index(from, "eta")?;
+        let roughness = match thin {
+            true => Roughness::alpha(0.0),
+            false => self.roughness(from, ["uroughness", "vroughness", "roughness"], 0.0)?,
+        };
+        let abbe = abbe.filter(|_| !thin);
+        Ok(Dielectric { ior: Value::Constant(index), abbe, roughness, absorption: Vec3::ZERO, thin })
+    }
+
+    /// An index of refraction, and an Abbe number: a number, or a spectrum.
+    fn index(&mut self, from: &Parameters, name: &'static str) -> Result<(f32, Option<f32>)> {
+        let (index, abbe) = match from.float(name, Limits::Above(0.0))? {
+            Some(index) => (index, None),
+            None => self.spectrum(from, name)?.map_or((USUAL_INDEX, None), |spectrum| spectrum.glass()),
         };
         // pbrt takes 0 for 1
-        Ok(if index == 0.0 { 1.0 } else { index })
+        Ok((if index == 0.0 { 1.0 } else { index }, abbe))
     }
 
     /// Widths of microfacets: along u, across it, and what both are where they are not there.
@@ -284,7 +284,7 @@ impl Reader<'_> {
         index: &'static str,
         widths: [&'static str; 3],
     ) -> Result<Interface> {
-        let ior = self.index(from, index)?.max(1.0);
+        let ior = self.index(from, index)?.0.max(1.0);
         Ok(Interface { ior, roughness: self.roughness(from, widths, 0.0)? })
     }
 

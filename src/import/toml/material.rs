@@ -18,6 +18,10 @@ const REFLECTANCE: Limits = Limits::From(0.0, 1.0);
 const MAX_EXPONENT: f32 = 1e6;
 /// Real materials reach about 8; the range leaves room and keeps squares harmless.
 const MAX_INDEX: f32 = 100.0;
+/// No glass bends colours as differently as that; diamond has 55, dense flint glass 20.
+const LEAST_ABBE: f32 = 1.0;
+/// As good as none.
+const MOST_ABBE: f32 = 1e6;
 /// The GGX widths of a surface, squared and as they are.
 const WIDTHS: [&str; 2] = ["roughness", "alpha"];
 
@@ -150,7 +154,7 @@ impl Reader<'_> {
                 return Err(bends_nothing(item, "ior"));
             }
         }
-        Ok(Dielectric { ior, roughness, absorption, thin })
+        Ok(Dielectric { ior, roughness, abbe: abbe(view, thin)?, absorption, thin })
     }
 
     /// A dielectric over an opaque base.
@@ -176,6 +180,7 @@ impl Reader<'_> {
             specular: self.number_or(view, "specular", 1.0, part)?,
             specular_color: self.color_or(view, "specular_color", 1.0, Limits::AtLeast(0.0))?,
             transmission: self.number_or(view, "transmission", 0.0, part)?,
+            abbe: abbe(view, thin)?,
             absorption: absorption(view, thin)?,
             thin,
             clearcoat: self.number_or(view, "clearcoat", 0.0, part)?,
@@ -183,9 +188,9 @@ impl Reader<'_> {
             sheen_color: self.color_or(view, "sheen_color", 0.0, REFLECTANCE)?,
             sheen_roughness: self.number_or(view, "sheen_roughness", 0.5, part)?,
         };
-        match view.get("absorption") {
+        match view.get("absorption").or(view.get("abbe")) {
             Some(item) if !principled.has_inside() => Err(item
-                .error("`absorption` has no meaning without `transmission`")
+                .error(format!("{} has no meaning without `transmission`", item.name()))
                 .help("add `transmission`")),
             _ => Ok(principled),
         }
@@ -248,15 +253,26 @@ fn bends_nothing(item: Item<'_>, index: &str) -> Error {
         .help(format!("change `{index}` or remove {}", item.name()))
 }
 
+/// What only glass with an inside has.
+fn of_inside<'a>(view: &View<'a>, key: &str, thin: bool) -> Result<Option<Item<'a>>> {
+    match view.get(key) {
+        Some(item) if thin => {
+            Err(item.error(format!("`{key}` has no meaning for a thin sheet")).help("remove it"))
+        }
+        item => Ok(item),
+    }
+}
+
 /// What the inside of glass absorbs.
 fn absorption(view: &View<'_>, thin: bool) -> Result<Vec3> {
-    match view.get("absorption") {
-        Some(item) if thin => {
-            Err(item.error("`absorption` has no meaning for a thin sheet").help("remove it"))
-        }
-        Some(item) => super::value::color(item, Limits::AtLeast(0.0)),
-        None => Ok(Vec3::ZERO),
-    }
+    let item = of_inside(view, "absorption", thin)?;
+    item.map_or(Ok(Vec3::ZERO), |item| super::value::color(item, Limits::AtLeast(0.0)))
+}
+
+/// The Abbe number of glass.
+fn abbe(view: &View<'_>, thin: bool) -> Result<Option<f32>> {
+    let item = of_inside(view, "abbe", thin)?;
+    item.map(|item| item.f32(Limits::From(LEAST_ABBE, MOST_ABBE))).transpose()
 }
 
 /// One value for both directions, or a list of two.

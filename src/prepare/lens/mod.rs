@@ -12,7 +12,7 @@ use crate::layout::PUPIL_INTERVALS;
 use crate::scene::{LensCamera, Measure, Opening, Scene};
 use std::f64::consts::PI;
 
-/// 1 / λ² of red, green and blue in 1 / µm², as in `camera/lens_system.glsl`.
+/// 1 / λ² of red, green and blue in 1 / µm², as `camera/lens_system.glsl` has it of `base/spectrum.glsl`.
 pub const INVERSE_SQUARES: [f64; 3] = [2.67519, 3.31663, 4.63877];
 
 /// The buffer `lens`, with all that the camera and the film look up, and what the uniform block says of it. Lengths are in millimetres.

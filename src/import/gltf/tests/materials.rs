@@ -78,6 +78,22 @@ fn a_volume_has_an_inside_that_absorbs() {
 }
 
 #[test]
+fn dispersion_is_twenty_over_the_abbe_number_of_a_volume() {
+    let abbe = |volume: Json, dispersion: f32| {
+        let extensions = json!({
+            "KHR_materials_transmission": { "transmissionFactor": 1.0 }, "KHR_materials_volume": volume,
+            "KHR_materials_dispersion": { "dispersion": dispersion },
+        });
+        let read = Maker::with_material(json!({ "extensions": extensions })).read().unwrap();
+        principled(only_material(&read)).abbe
+    };
+    let thick = || json!({ "thicknessFactor": 1.0 });
+    assert_eq!([abbe(thick(), 0.5), abbe(thick(), 0.0)], [Some(40.0), None]);
+    assert_eq!(abbe(json!({}), 0.5), None, "a sheet bends nothing");
+    assert_eq!(abbe(thick(), 1e6), Some(1.0));
+}
+
+#[test]
 fn alpha_modes_become_opacity() {
     let opacity = |mode: Json| {
         let mut material = json!({ "pbrMetallicRoughness": { "baseColorFactor": [1, 1, 1, 0.25] } });
@@ -212,8 +228,8 @@ fn variants_choose_materials() {
 
 #[test]
 fn what_is_not_read_is_named() {
-    let found = warnings(json!({ "extensions": { "KHR_materials_dispersion": { "dispersion": 0.1 } } }));
-    assert_eq!(found, ["/materials/0: the material is seen without KHR_materials_dispersion"]);
+    let found = warnings(json!({ "extensions": { "KHR_materials_iridescence": {} } }));
+    assert_eq!(found, ["/materials/0: the material is seen without KHR_materials_iridescence"]);
     let found = warnings(json!({ "pbrMetallicRoughness": { "metallicFactor": 1.5 } }));
     assert_eq!(found, ["/materials/0/pbrMetallicRoughness: `metallicFactor` is 1.5, and is taken as 1"]);
     let mut maker = Maker::triangle();

@@ -28,8 +28,12 @@ pub(super) enum Spectrum {
     Rgb(Vec3),
     /// Values at wavelengths in nanometres, which grow; two at least.
     Samples(Vec<[f32; 2]>),
+    /// Index of refraction at the d line, and Abbe number.
+    Glass([f32; 2]),
 }
 
+/// The lines F, d and C in nanometres.
+const LINES: [f64; 3] = [486.132_7, 587.561_8, 656.272_5];
 /// Largest reflectance of a metal: at 1 its index would be infinite.
 const MOST_REFLECTANCE: f64 = 0.99;
 
@@ -38,6 +42,7 @@ impl Spectrum {
     pub fn rgb(&self, role: Role) -> Vec3 {
         match self {
             Self::Rgb(rgb) => *rgb,
+            Self::Glass([index, _]) => Vec3::splat(*index),
             Self::Samples(list) => {
                 let value = |wavelength: f64| interpolated(list, wavelength);
                 let rgb = match role {
@@ -53,6 +58,19 @@ impl Spectrum {
 }
 
 impl Spectrum {
+    /// The index of clear material at the d line, and its Abbe number where blue is bent more than red.
+    pub fn glass(&self) -> (f32, Option<f32>) {
+        match self {
+            Self::Rgb(rgb) => (rgb.y, None),
+            Self::Glass([index, abbe]) => (*index, Some(*abbe)),
+            Self::Samples(list) => {
+                let [f, d, c] = LINES.map(|wavelength| interpolated(list, wavelength));
+                let abbe = (d - 1.0) / (f - c);
+                (d as f32, (f > c && abbe > 0.0).then_some(abbe as f32))
+            }
+        }
+    }
+
     /// η and k of copper, which is the metal of pbrt when a scene names none.
     pub fn copper() -> [Self; 2] {
         ["metal-Cu-eta", "metal-Cu-k"].map(|name| Self::Rgb(named::named(name).unwrap_or(Vec3::ONE)))
@@ -146,6 +164,9 @@ impl Reader<'_> {
                 .map_err(|rule| from.refuse(parameter, format!("a list of {} numbers", list.len()), rule)),
             (_, Values::Strings(list)) => {
                 let [name] = list.as_slice() else { return Err(from.count(parameter, 1)) };
+                if let Some(glass) = named::glass(name) {
+                    return Ok(Spectrum::Glass(glass));
+                }
                 match named::named(name) {
                     Some(rgb) => Ok(Spectrum::Rgb(rgb)),
                     None => self.spectrum_file(parameter, name).map(Spectrum::Samples),

@@ -18,15 +18,15 @@ const INDICES: [(&str, [f32; 3], [f32; 3]); 7] = [
     ("TiO2", [2.6140, 2.6629, 2.8100], [0.0; 3]),
 ];
 
-/// Indices of glasses at the d line, from the data sheets of Schott.
-const GLASSES: [(&str, f32); 7] = [
-    ("BK7", 1.5168),
-    ("BAF10", 1.6700),
-    ("FK51A", 1.4866),
-    ("LASF9", 1.8503),
-    ("F5", 1.6727),
-    ("F10", 1.7283),
-    ("F11", 1.7847),
+/// Indices of glasses at the d line and Abbe numbers, from the data sheets of Schott: N-BK7, N-BAF10, N-FK51A, N-LASF9, SF5, SF10, SF11.
+const GLASSES: [(&str, f32, f32); 7] = [
+    ("BK7", 1.5168, 64.17),
+    ("BAF10", 1.6700, 47.11),
+    ("FK51A", 1.4866, 84.47),
+    ("LASF9", 1.8503, 32.17),
+    ("F5", 1.6727, 32.21),
+    ("F10", 1.7283, 28.41),
+    ("F11", 1.7847, 25.76),
 ];
 
 /// Chromaticities x and y of illuminants for the CIE 1931 observer (CIE 15; D60 from ACES).
@@ -49,7 +49,13 @@ const ILLUMINANTS: [(&str, f64, f64); 16] = [
     ("illum-acesD60", 0.32168, 0.33767),
 ];
 
-/// The numbers of a name: η or k of a metal, the index of a glass, or the colour of an illuminant of luminance 1.
+/// Index and Abbe number of a named glass.
+pub(super) fn glass(name: &str) -> Option<[f32; 2]> {
+    let glass = name.strip_prefix("glass-")?;
+    GLASSES.iter().find(|(known, ..)| *known == glass).map(|&(_, index, abbe)| [index, abbe])
+}
+
+/// The numbers of a name: η or k of a metal, or the colour of an illuminant of luminance 1.
 pub(super) fn named(name: &str) -> Option<Vec3> {
     if let Some((metal, part)) = name.strip_prefix("metal-").and_then(|name| name.split_once('-')) {
         let (_, eta, k) = INDICES.iter().find(|(known, ..)| *known == metal)?;
@@ -59,9 +65,6 @@ pub(super) fn named(name: &str) -> Option<Vec3> {
             _ => None,
         };
     }
-    if let Some(glass) = name.strip_prefix("glass-") {
-        return GLASSES.iter().find(|(known, _)| *known == glass).map(|(_, index)| Vec3::splat(*index));
-    }
     let (_, x, y) = ILLUMINANTS.iter().find(|(known, ..)| *known == name)?;
     Some((RGB_FROM_XYZ * DVec3::new(x / y, 1.0, (1.0 - x - y) / y)).as_vec3())
 }
@@ -70,7 +73,7 @@ pub(super) fn named(name: &str) -> Option<Vec3> {
 pub(super) fn names() -> Vec<String> {
     let metals =
         INDICES.iter().flat_map(|(metal, ..)| ["eta", "k"].map(|part| format!("metal-{metal}-{part}")));
-    let glasses = GLASSES.iter().map(|(glass, _)| format!("glass-{glass}"));
+    let glasses = GLASSES.iter().map(|(glass, ..)| format!("glass-{glass}"));
     metals.chain(glasses).chain(ILLUMINANTS.iter().map(|(name, ..)| (*name).to_owned())).collect()
 }
 
@@ -80,11 +83,13 @@ mod tests {
 
     #[test]
     fn names_have_plausible_numbers() {
-        assert!(names().iter().all(|name| named(name).is_some_and(|color| color.is_finite())));
-        assert_eq!(named("glass-BK7"), Some(Vec3::splat(1.5168)));
+        let known = |name: &str| glass(name).is_some() || named(name).is_some_and(|color| color.is_finite());
+        assert!(names().iter().all(|name| known(name)));
+        assert_eq!(glass("glass-BK7"), Some([1.5168, 64.17]));
         assert!(named("stdillum-D65").unwrap().abs_diff_eq(Vec3::ONE, 2e-3));
         let warm = named("stdillum-A").unwrap();
         assert!(warm.x > 1.5 && warm.z < 0.4, "{warm}");
-        assert_eq!([named("metal-Xx-eta"), named("metal-Au"), named("glass-"), named("")], [None; 4]);
+        assert_eq!([named("metal-Xx-eta"), named("metal-Au"), named("")], [None; 3]);
+        assert_eq!([glass("glass-"), glass("BK7")], [None; 2]);
     }
 }

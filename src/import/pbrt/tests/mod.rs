@@ -268,3 +268,25 @@ fn roughness_is_a_square_root_unless_it_is_none() {
     assert_eq!(width("\"float roughness\" 0.25 \"bool remaproughness\" false"), Value::Constant(0.25));
     assert_eq!(width("\"float uroughness\" 1e-7"), Value::Constant(0.0));
 }
+
+#[test]
+fn glasses_and_spectra_that_fall_have_an_abbe_number() {
+    let glass = |more: &str| {
+        let scene = world(&format!("Material {more} Shape \"sphere\""));
+        match &scene.materials[scene.shapes[0].material].surface {
+            Surface::Dielectric(glass) => (glass.ior, glass.abbe),
+            other => panic!("{other:?}"),
+        }
+    };
+    let index = Value::Constant;
+    assert_eq!(glass("\"dielectric\" \"spectrum eta\" \"glass-F11\""), (index(1.7847), Some(25.76)));
+    assert_eq!(glass("\"thindielectric\" \"spectrum eta\" \"glass-F11\""), (index(1.7847), None));
+    assert_eq!(glass("\"dielectric\" \"float eta\" 1.4"), (index(1.4), None));
+    assert_eq!(glass("\"dielectric\" \"spectrum eta\" [400 1.5 700 1.5]"), (index(1.5), None));
+    // A straight line, 0.0005 / nm: 0.5938 at the d line, 0.0851 from F to C
+    let (Value::Constant(ior), Some(abbe)) = glass("\"dielectric\" \"spectrum eta\" [400 1.6 700 1.45]")
+    else {
+        panic!("a spectrum that falls")
+    };
+    assert!((ior - 1.506_22).abs() < 1e-5 && (abbe - 0.506_219 / 0.085_07).abs() < 1e-2, "{ior} {abbe}");
+}

@@ -71,6 +71,7 @@ fn materials_take_every_key() {
     let Surface::Dielectric(glass) = &material("glass").surface else { panic!("glass") };
     assert_eq!(glass.ior, Value::Texture(texture("other")));
     assert_eq!((glass.absorption, glass.thin), (Vec3::new(0.0, 0.5, 1.0), false));
+    assert_eq!(glass.abbe, Some(30.0));
     let (u, v) = (Value::Texture(texture("wood")), Value::Constant(0.25));
     assert_eq!(glass.roughness, Roughness { u, v, squared: true });
     let wood = Value::Texture(texture("wood"));
@@ -98,6 +99,7 @@ fn materials_take_every_key() {
         specular: number(0.75),
         specular_color: Value::Constant(Vec3::new(1.0, 0.5, 0.25)),
         transmission: number(0.5),
+        abbe: Some(40.0),
         absorption: Vec3::splat(2.0),
         thin: false,
         clearcoat: number(1.0),
