@@ -49,9 +49,60 @@ impl Attributes {
 }
 
 /// The neighbours of a place, counter-clockwise seen from outside; a boundary begins at the first and ends at the last.
-struct Ring {
-    places: Vec<u32>,
+#[derive(Clone, Copy)]
+struct Ring<'a> {
+    places: &'a [u32],
     closed: bool,
+}
+
+/// The rings of all places.
+struct Rings {
+    places: Vec<u32>,
+    /// Where each begins, and where the last ends.
+    starts: Vec<usize>,
+    closed: Vec<bool>,
+}
+
+impl Rings {
+    fn iter(&self) -> impl Iterator<Item = Ring<'_>> {
+        let ranges = self.starts.windows(2).map(|ends| &self.places[ends[0]..ends[1]]);
+        ranges.zip(&self.closed).map(|(places, &closed)| Ring { places, closed })
+    }
+}
+
+/// The edges of triangles, each once, in the order in which they are met.
+struct Edges {
+    /// Edge from each corner to the next, of each triangle.
+    sides: Vec<[u32; 3]>,
+    ends: Vec<[u32; 2]>,
+    /// The corners across it in its two triangles; a boundary has one.
+    across: Vec<[Option<u32>; 2]>,
+}
+
+impl Edges {
+    fn of(triangles: &[[u32; 3]]) -> Self {
+        let mut known = HashMap::with_capacity(triangles.len() * 3 / 2);
+        let mut edges = Self { sides: Vec::with_capacity(triangles.len()), ends: vec![], across: vec![] };
+        for [a, b, c] in triangles {
+            edges.sides.push([[a, b, c], [b, c, a], [c, a, b]].map(|[from, to, across]| {
+                let ends = [*from.min(to), *from.max(to)];
+                let edge = *known.entry(ends).or_insert_with(|| {
+                    edges.ends.push(ends);
+                    edges.across.push([None; 2]);
+                    edges.ends.len() as u32 - 1
+                });
+                let [first, second] = &mut edges.across[edge as usize];
+                *if first.is_none() { first } else { second } = Some(*across);
+                edge
+            }));
+        }
+        edges
+    }
+
+    /// What stands for the middles of the edges of each triangle, which follow one another from `first` on.
+    fn middles(&self, first: usize) -> Vec<[u32; 3]> {
+        self.sides.iter().map(|side| side.map(|edge| first as u32 + edge)).collect()
+    }
 }
 
 impl Mesh {
@@ -135,54 +186,63 @@ impl Cage {
         there.map(|(_, attributes)| one(attributes)).collect()
     }
 
-    fn rings(&self) -> Result<Vec<Ring>> {
-        let mut fans: Vec<Vec<[u32; 2]>> = vec![Vec::new(); self.places.len()];
+    fn rings(&self) -> Result<Rings> {
+        // The edges across each place lie side by side
+        let mut ends = vec![0_usize; self.places.len() + 1];
+        for place in self.triangles.iter().flatten() {
+            ends[*place as usize + 1] += 1;
+        }
+        for i in 1..ends.len() {
+            ends[i] += ends[i - 1];
+        }
+        let (mut next, mut fans) = (ends.clone(), vec![[0; 2]; 3 * self.triangles.len()]);
         for [a, b, c] in &self.triangles {
             for [at, from, to] in [[a, b, c], [b, c, a], [c, a, b]] {
-                fans[*at as usize].push([*from, *to]);
+                fans[next[*at as usize]] = [*from, *to];
+                next[*at as usize] += 1;
             }
         }
-        let ring = |(place, fan): (usize, Vec<[u32; 2]>)| {
-            ring(fan).ok_or_else(|| {
-                let [x, y, z] = self.places[place].to_array();
-                Error::scene(format!("the triangles around the vertex at [{x}, {y}, {z}] are no simple fan"))
+        let mut rings = Rings { places: Vec::with_capacity(fans.len()), starts: vec![0], closed: Vec::new() };
+        let mut sorted = Vec::new();
+        for (place, ends) in ends.windows(2).enumerate() {
+            let closed =
+                join(&mut fans[ends[0]..ends[1]], &mut sorted, &mut rings.places).ok_or_else(|| {
+                    let [x, y, z] = self.places[place].to_array();
+                    Error::scene(format!(
+                        "the triangles around the vertex at [{x}, {y}, {z}] are no simple fan"
+                    ))
                     .help("an edge must have one or two triangles, which go round the same way")
-            })
-        };
-        fans.into_iter().enumerate().map(ring).collect()
+                })?;
+            rings.closed.push(closed);
+            rings.starts.push(rings.places.len());
+        }
+        Ok(rings)
     }
 
     /// Each triangle as four.
-    fn subdivided(&self, rings: &[Ring]) -> Self {
-        let mut places: Vec<_> = self.places.iter().zip(rings).map(|(p, ring)| self.even(*p, ring)).collect();
-        let mut opposite: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
-        for [a, b, c] in &self.triangles {
-            for [from, to, across] in [[a, b, c], [b, c, a], [c, a, b]] {
-                opposite.entry([*from.min(to), *from.max(to)]).or_default().push(*across);
+    fn subdivided(&self, rings: &Rings) -> Self {
+        let edges = Edges::of(&self.triangles);
+        let middle_places = edges.middles(self.places.len());
+        let even = self.places.iter().zip(rings.iter()).map(|(p, ring)| self.even(*p, ring));
+        let odd = edges.ends.iter().zip(&edges.across).map(|(ends, across)| self.odd(*ends, *across));
+        let places = even.chain(odd).collect();
+
+        let seams = Edges::of(&self.corners);
+        let middle_vertices = seams.middles(self.vertices.len());
+        let mut cut_at = vec![0; seams.ends.len()];
+        for (side, middles) in seams.sides.iter().zip(&middle_places) {
+            for (seam, middle) in side.iter().zip(middles) {
+                cut_at[*seam as usize] = *middle;
             }
         }
-        let middle_place = halves(&self.triangles, |edge| {
-            places.push(self.odd(edge, opposite.get(&edge).map_or(&[], Vec::as_slice)));
-            places.len() as u32 - 1
-        });
-        let mut vertices: Vec<_> = self.vertices.clone();
-        let mut cut_at = HashMap::new();
-        for (triangle, middles) in self.triangles.iter().zip(&middle_place) {
-            for k in 0..3 {
-                let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
-                cut_at.insert([a.min(b), a.max(b)], middles[k]);
-            }
-        }
-        let middle_vertex = halves(&self.corners, |[a, b]| {
-            let ((p, s), (q, t)) = (vertices[a as usize], vertices[b as usize]);
-            vertices.push((cut_at[&[p.min(q), p.max(q)]], s.between(t)));
-            vertices.len() as u32 - 1
-        });
+        let attributes = |vertex: u32| self.vertices[vertex as usize].1;
+        let cut = seams.ends.iter().zip(&cut_at);
+        let cut = cut.map(|([a, b], place)| (*place, attributes(*a).between(attributes(*b))));
         Self {
             places,
-            triangles: four(&self.triangles, &middle_place),
-            vertices,
-            corners: four(&self.corners, &middle_vertex),
+            triangles: four(&self.triangles, &middle_places),
+            vertices: self.vertices.iter().copied().chain(cut).collect(),
+            corners: four(&self.corners, &middle_vertices),
         }
     }
 
@@ -191,10 +251,10 @@ impl Cage {
     }
 
     /// Where a vertex goes.
-    fn even(&self, p: DVec3, ring: &Ring) -> DVec3 {
+    fn even(&self, p: DVec3, ring: Ring<'_>) -> DVec3 {
         if ring.closed {
             let n = ring.places.len() as f64;
-            return p * (1.0 - n * beta(n)) + self.sum(&ring.places) * beta(n);
+            return p * (1.0 - n * beta(n)) + self.sum(ring.places) * beta(n);
         }
         match ring.ends() {
             Some(ends) => 0.75 * p + 0.125 * self.sum(&ends),
@@ -203,34 +263,34 @@ impl Cage {
     }
 
     /// The new vertex of an edge.
-    fn odd(&self, edge: [u32; 2], opposite: &[u32]) -> DVec3 {
-        match opposite {
-            [_, _] => 0.375 * self.sum(&edge) + 0.125 * self.sum(opposite),
+    fn odd(&self, edge: [u32; 2], across: [Option<u32>; 2]) -> DVec3 {
+        match across {
+            [Some(a), Some(b)] => 0.375 * self.sum(&edge) + 0.125 * self.sum(&[a, b]),
             _ => 0.5 * self.sum(&edge),
         }
     }
 
     /// Positions and unit normals in the limit.
-    fn limit(&self, rings: &[Ring]) -> (Vec<Vec3>, Vec<Vec3>) {
-        let position = |(p, ring): (&DVec3, &Ring)| {
+    fn limit(&self, rings: &Rings) -> (Vec<Vec3>, Vec<Vec3>) {
+        let position = |(p, ring): (&DVec3, Ring<'_>)| {
             if ring.closed {
                 let n = ring.places.len() as f64;
                 let gamma = 1.0 / (n + 3.0 / (8.0 * beta(n)));
-                return (*p * (1.0 - n * gamma) + self.sum(&ring.places) * gamma).as_vec3();
+                return (*p * (1.0 - n * gamma) + self.sum(ring.places) * gamma).as_vec3();
             }
             // A boundary is a cubic B-spline
             ring.ends().map_or(*p, |ends| (4.0 * *p + self.sum(&ends)) / 6.0).as_vec3()
         };
-        let normal = |(p, ring): (&DVec3, &Ring)| {
+        let normal = |(p, ring): (&DVec3, Ring<'_>)| {
             let [s, t] = self.tangents(*p, ring);
             s.cross(t).normalize_or_zero().as_vec3()
         };
-        let all = || self.places.iter().zip(rings);
+        let all = || self.places.iter().zip(rings.iter());
         (all().map(position).collect(), all().map(normal).collect())
     }
 
     /// Two directions along the limit surface, the second to the left of the first seen from outside.
-    fn tangents(&self, p: DVec3, ring: &Ring) -> [DVec3; 2] {
+    fn tangents(&self, p: DVec3, ring: Ring<'_>) -> [DVec3; 2] {
         let n = ring.places.len();
         let at = |k: usize| self.places[ring.places[k] as usize];
         if ring.closed {
@@ -258,47 +318,42 @@ impl Cage {
     }
 }
 
-impl Ring {
+impl Ring<'_> {
     /// Both neighbours on the boundary.
     fn ends(&self) -> Option<[u32; 2]> {
         Some([*self.places.first()?, *self.places.last()?])
     }
 }
 
-/// Joins edges that go round a place; none when they are not one chain.
-fn ring(mut fan: Vec<[u32; 2]>) -> Option<Ring> {
+/// Appends the places that edges go round one after the other, and says whether they come back to the first; none when they are
+/// not one chain. `sorted` is room to work in.
+fn join(fan: &mut [[u32; 2]], sorted: &mut Vec<u32>, places: &mut Vec<u32>) -> Option<bool> {
+    fan.sort_unstable();
+    sorted.clear();
+    sorted.extend(fan.iter().map(|[_, to]| *to));
+    sorted.sort_unstable();
+    if fan.windows(2).any(|two| two[0][0] == two[1][0]) || sorted.windows(2).any(|two| two[0] == two[1]) {
+        return None;
+    }
     // A chain that is open begins where no edge ends
-    let first = fan.iter().position(|[from, _]| fan.iter().all(|[_, to]| to != from)).unwrap_or(0);
-    let [start, mut end] = fan.swap_remove(first);
-    let mut places = vec![start, end];
-    while !fan.is_empty() {
-        let next = fan.iter().position(|[from, _]| *from == end)?;
-        [_, end] = fan.swap_remove(next);
+    let begins = |[from, _]: &[u32; 2]| sorted.binary_search(from).is_err();
+    let [start, mut end] = *fan.get(fan.iter().position(begins).unwrap_or(0))?;
+    places.push(start);
+    for _ in 1..fan.len() {
+        places.push(end);
+        let next = fan.binary_search_by_key(&end, |[from, _]| *from).ok().filter(|_| end != start)?;
+        [_, end] = fan[next];
+    }
+    if end != start {
         places.push(end);
     }
-    let closed = start == end;
-    if closed {
-        places.pop();
-    }
-    let mut sorted = places.clone();
-    sorted.sort_unstable();
-    let simple = places.len() >= 2 && sorted.windows(2).all(|pair| pair[0] != pair[1]);
-    simple.then_some(Ring { places, closed })
+    // A triangle with two corners in one place goes round nothing
+    (fan.len() > 1 || end != start).then_some(end == start)
 }
 
 /// Warren's weight of each of n neighbours.
 fn beta(n: f64) -> f64 {
     if n == 3.0 { 3.0 / 16.0 } else { 3.0 / (8.0 * n) }
-}
-
-/// What stands for the middle of each edge of each triangle, made once an edge.
-fn halves(triangles: &[[u32; 3]], mut middle: impl FnMut([u32; 2]) -> u32) -> Vec<[u32; 3]> {
-    let mut known = HashMap::new();
-    let mut of = |a: u32, b: u32| {
-        let edge = [a.min(b), a.max(b)];
-        *known.entry(edge).or_insert_with(|| middle(edge))
-    };
-    triangles.iter().map(|[a, b, c]| [of(*a, *b), of(*b, *c), of(*c, *a)]).collect()
 }
 
 fn four(triangles: &[[u32; 3]], middles: &[[u32; 3]]) -> Vec<[u32; 3]> {

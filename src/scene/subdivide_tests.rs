@@ -146,3 +146,27 @@ fn what_cannot_be_subdivided_is_an_error() {
         assert!(error.message.contains("more than 4000000"), "{error}");
     }
 }
+
+#[test]
+fn a_fan_of_many_triangles_takes_no_longer_than_others() {
+    const CORNERS: u32 = 200_000;
+    let rim = (0..CORNERS).map(|i| {
+        let (sin, cos) = (std::f32::consts::TAU * i as f32 / CORNERS as f32).sin_cos();
+        Vec3::new(cos, sin, 0.0)
+    });
+    let mesh = Mesh {
+        positions: std::iter::once(Vec3::Z).chain(rim).collect(),
+        triangles: (0..CORNERS).map(|i| [0, 1 + i, 1 + (i + 1) % CORNERS]).collect(),
+        ..Mesh::default()
+    };
+    let started = std::time::Instant::now();
+    assert_eq!(mesh.loop_subdivided(1).unwrap().triangles.len(), 4 * CORNERS as usize);
+    assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
+}
+
+#[test]
+fn a_triangle_with_two_corners_in_one_place_is_refused() {
+    let mesh =
+        Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::X], triangles: vec![[0, 1, 2]], ..Mesh::default() };
+    assert!(mesh.loop_subdivided(1).is_err());
+}

@@ -70,6 +70,13 @@ fn subdivision() {
             "1:1: mesh `a` cannot be subdivided: 10 levels make 4^10 triangles of each of 4, more than 4000000 in all; \
              subdivide less often",
         ),
+        (
+            format!(
+                "[mesh.a]\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\ntriangles = {:?}\nsubdivision = 'loop'\nlevels = 10",
+                [[0, 1, 2]; 17]
+            ),
+            "1:1: with mesh `a` the subdivided meshes have more than 16777216 triangles; subdivide less often",
+        ),
     ];
     let cases: Vec<_> = cases.iter().map(|(text, message)| (text.as_str(), *message)).collect();
     check(&cases);

@@ -15,6 +15,8 @@ const INLINE: [&str; 7] = ["positions", "triangles", "polygons", "normals", "uvs
 
 /// Levels of subdivision when the scene does not say.
 const LEVELS: u32 = 3;
+/// Most triangles of all subdivided meshes of a scene.
+const MOST_SUBDIVIDED: u64 = 1 << 24;
 /// One triangle becomes four million.
 const MOST_LEVELS: u32 = 10;
 
@@ -36,6 +38,15 @@ impl Reader<'_> {
             return Err(view.error(format!("{} has no triangles", view.what)));
         }
         if let Some(levels) = levels(&view)? {
+            let more = 4_u64.pow(levels).saturating_mul(mesh.triangles.len() as u64);
+            if self.subdivided.saturating_add(more) > MOST_SUBDIVIDED {
+                let message = format!(
+                    "with {} the subdivided meshes have more than {MOST_SUBDIVIDED} triangles",
+                    view.what
+                );
+                return Err(view.error(message).help("subdivide less often"));
+            }
+            self.subdivided += more;
             mesh = mesh.loop_subdivided(levels).map_err(|error| {
                 view.error(format!("{} cannot be subdivided: {}", view.what, error.message))
                     .help(error.help.unwrap_or_default())

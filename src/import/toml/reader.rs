@@ -25,6 +25,8 @@ pub(super) struct Reader<'a> {
     /// Pictures that are loaded already, by the identity of the file.
     pub images: BTreeMap<PathBuf, Handle<Image>>,
     pub models: Models,
+    /// Triangles of subdivided meshes so far.
+    pub subdivided: u64,
     warnings: Vec<(Spot, String)>,
 }
 
@@ -76,6 +78,7 @@ impl<'a> Reader<'a> {
             meshes: Names::new(["mesh", "meshes"]),
             images: BTreeMap::new(),
             models: Models::showing(choice),
+            subdivided: 0,
             warnings: Vec::new(),
         }
     }
