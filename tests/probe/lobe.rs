@@ -76,7 +76,7 @@ impl Lobe {
     }
 }
 
-pub const HEADER: usize = 10;
+const HEADER: usize = 10;
 
 const BSDF: &str = "
     #define fetch_materials(i) fetch_points(TABLES + (i))
