@@ -95,12 +95,21 @@ fn find_ear(polygon: &[u32], positions: &[Vec3], normal: DVec3) -> Option<usize>
     })
 }
 
+/// A direction with unit length, or 0. One that has it already, up to its rounding, stays as it is.
+pub(super) fn unit(direction: Vec3) -> Vec3 {
+    let wide = direction.as_dvec3();
+    if (wide.length_squared() - 1.0).abs() <= f64::from(f32::EPSILON) {
+        return direction;
+    }
+    wide.normalize_or_zero().as_vec3()
+}
+
 /// Gives all normals unit length. One of zero length becomes the normal of a triangle at its vertex; where there
 /// is none with an area, +z.
 pub(super) fn normalize_normals(mesh: &mut Mesh) {
     let mut missing = 0_usize;
     for normal in &mut mesh.normals {
-        *normal = normal.as_dvec3().normalize_or_zero().as_vec3();
+        *normal = unit(*normal);
         missing += usize::from(*normal == Vec3::ZERO);
     }
     if missing == 0 {

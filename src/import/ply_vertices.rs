@@ -1,5 +1,6 @@
 //! The vertices of a PLY file.
 
+use super::mesh::unit;
 use super::ply::{Source, list_length};
 use super::ply_header::{Element, Scalar};
 use super::srgb::linear_from_srgb;
@@ -7,15 +8,17 @@ use crate::scene::Mesh;
 use crate::{Error, Result};
 use glam::{Vec2, Vec3, Vec4};
 
-/// Names of the properties that are read: x y z, normal, uv in its three spellings, and colour.
+/// Names of the properties that are read: x y z, normal, uv in its three spellings, a second uv, tangent, and colour.
 const POSITION: [&str; 3] = ["x", "y", "z"];
 const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
 const UVS: [[&str; 2]; 3] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]];
+const UV1: [&str; 2] = ["u1", "v1"];
+const TANGENT: [&str; 4] = ["tx", "ty", "tz", "tw"];
 const COLOR: [&str; 3] = ["red", "green", "blue"];
 const ALPHA: &str = "alpha";
 /// Slots of a row: those of colours are the last four.
-const SLOTS: usize = 12;
-const FIRST_COLOR: usize = 8;
+const SLOTS: usize = 18;
+const FIRST_COLOR: usize = 14;
 
 pub(super) fn read_vertices(element: &Element, source: &mut impl Source, mesh: &mut Mesh) -> Result<()> {
     let find = |name: &&str| element.properties.iter().position(|p| p.name == *name && p.length.is_none());
@@ -25,13 +28,16 @@ pub(super) fn read_vertices(element: &Element, source: &mut impl Source, mesh: &
     })?;
     let normals = all(&NORMAL);
     let uvs = UVS.iter().find_map(|names| all(names));
+    let uvs1 = all(&UV1);
+    let tangents = all(&TANGENT);
     let colors = all(&COLOR);
     let alpha = colors.as_ref().and_then(|_| find(&ALPHA));
 
     // Slot of a row in which each property is kept; none = passed over.
     let mut slots = vec![None; element.properties.len()];
     let used = positions.iter().chain(normals.iter().flatten()).zip(0_usize..);
-    let used = used.chain(uvs.iter().flatten().zip(6..));
+    let used = used.chain(uvs.iter().flatten().zip(6..)).chain(uvs1.iter().flatten().zip(8..));
+    let used = used.chain(tangents.iter().flatten().zip(10..));
     for (&property, slot) in used.chain(colors.iter().flatten().chain(&alpha).zip(FIRST_COLOR..)) {
         slots[property] = Some(slot);
     }
@@ -39,6 +45,8 @@ pub(super) fn read_vertices(element: &Element, source: &mut impl Source, mesh: &
     mesh.positions.reserve_exact(count);
     mesh.normals.reserve_exact(if normals.is_some() { count } else { 0 });
     mesh.uvs.reserve_exact(if uvs.is_some() { count } else { 0 });
+    mesh.uvs1.reserve_exact(if uvs1.is_some() { count } else { 0 });
+    mesh.tangents.reserve_exact(if tangents.is_some() { count } else { 0 });
     mesh.colors.reserve_exact(if colors.is_some() { count } else { 0 });
     for _ in 0..count {
         let mut row = [0.0_f32; SLOTS];
@@ -68,13 +76,20 @@ pub(super) fn read_vertices(element: &Element, source: &mut impl Source, mesh: &
             }
         }
         source.end_row()?;
-        let [x, y, z, nx, ny, nz, u, v, red, green, blue, alpha] = row;
+        let [x, y, z, nx, ny, nz, u, v, u1, v1, tx, ty, tz, tw, red, green, blue, alpha] = row;
         mesh.positions.push(Vec3::new(x, y, z));
         if normals.is_some() {
             mesh.normals.push(Vec3::new(nx, ny, nz));
         }
         if uvs.is_some() {
             mesh.uvs.push(Vec2::new(u, v));
+        }
+        if uvs1.is_some() {
+            mesh.uvs1.push(Vec2::new(u1, v1));
+        }
+        if tangents.is_some() {
+            let side = if tw < 0.0 { -1.0 } else { 1.0 };
+            mesh.tangents.push(unit(Vec3::new(tx, ty, tz)).extend(side));
         }
         if colors.is_some() {
             mesh.colors.push(Vec4::new(red, green, blue, alpha));

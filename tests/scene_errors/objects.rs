@@ -182,7 +182,7 @@ fn meshes_and_instances() {
         ),
         (
             mesh("triangles = [[0, 1, 2]]\nmaterials = {}"),
-            "6:13: `materials` needs a `file` with named parts; give the material to the instance",
+            "6:13: `materials` needs a `file`; give the material to the instance",
         ),
         (
             "[mesh.m]\npositions = [[0, 0, nan]]\ntriangles = [[0, 0, 0]]".into(),

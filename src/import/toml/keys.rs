@@ -267,6 +267,7 @@ pub(super) const MESH: &[&str] = &[
     "file",
     "levels",
     "materials",
+    "parts",
     "positions",
     "triangles",
     "polygons",
@@ -280,6 +281,9 @@ pub(super) const MESH: &[&str] = &[
 
 pub(super) const INSTANCE: &[&str] =
     &["mesh", "material", "transform", "transform_close", "file", "time", "variant"];
+
+/// Of each of the `parts` of a mesh.
+pub(super) const PART: &[&str] = &["name", "triangles", "material"];
 
 /// Steps of a `transform`.
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];

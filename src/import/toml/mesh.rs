@@ -1,7 +1,7 @@
 //! `[mesh.NAME]`.
 
 use super::document::{Data, Entry};
-use super::keys::MESH;
+use super::keys::{MESH, PART};
 use super::reader::Reader;
 use super::text::{Limits, shown, suggest};
 use super::view::{Item, View};
@@ -64,9 +64,16 @@ impl Reader<'_> {
     fn file_mesh(&mut self, view: &View<'_>, file: Item<'_>) -> Result<Mesh> {
         let path = file.path()?;
         self.need_file(file.node.spot, &path)?;
+        if let (Some(parts), Some(_)) = (view.get("parts"), view.get("materials")) {
+            return Err(parts.error("`parts` has no meaning beside `materials`").help("keep one of them"));
+        }
         // The names are checked before a file that may be large is read.
         let named = self.part_materials(view)?;
         let mut mesh = self.assets.mesh(&path).map_err(|error| self.sources.locate(file.node.spot, error))?;
+        if let Some(item) = view.get("parts") {
+            mesh.parts = self.parts(item, &mesh)?;
+            return Ok(mesh);
+        }
         let parts: BTreeSet<_> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
         for (name, (item, _)) in &named {
             if !parts.contains(name) {
@@ -83,6 +90,34 @@ impl Reader<'_> {
             };
         }
         Ok(mesh)
+    }
+
+    /// `parts`: runs of triangles of a file that has no parts of its own.
+    fn parts(&self, item: Item<'_>, mesh: &Mesh) -> Result<Vec<MeshPart>> {
+        if mesh.parts.len() > 1 || mesh.parts.iter().any(|part| !part.name.is_empty()) {
+            let message = "`parts` has no meaning for a mesh that has parts by itself";
+            return Err(item.error(message).help("use `materials` for these"));
+        }
+        let whole = mesh.triangles.len() as u64;
+        let (mut parts, mut end) = (Vec::new(), 0_u32);
+        for item in item.list("a list of parts, such as [{ triangles = 12, material = \"stone\" }]")? {
+            let view = View::new(item.sources, item.node, item.name(), PART)?;
+            let triangles = view.need("triangles")?;
+            let count = triangles.u32(1, u32::MAX)?;
+            let start = end;
+            end = start.checked_add(count).filter(|end| u64::from(*end) <= whole).ok_or_else(|| {
+                triangles.error(format!("the parts have more than the {whole} triangles of the mesh"))
+            })?;
+            let name = view.get("name").map_or(Ok(""), |name| name.string())?.to_owned();
+            let material = view.get("material").map(|name| self.materials.find(name)).transpose()?;
+            parts.push(MeshPart { name, triangles: start..end, material });
+        }
+        match u64::from(end) == whole {
+            true => Ok(parts),
+            false => Err(item
+                .error(format!("the parts have {end} triangles, the mesh has {whole}"))
+                .help("each triangle is in one part, in the order of the file")),
+        }
     }
 
     /// `materials`: names of parts and of the materials that they get.
@@ -121,9 +156,9 @@ fn inline_mesh(view: &View<'_>) -> Result<Mesh> {
             .error(format!("{} has neither `file` nor `positions`", view.what))
             .help("add one of them"));
     };
-    if let Some(item) = view.get("materials") {
+    if let Some(item) = view.get("materials").or(view.get("parts")) {
         return Err(item
-            .error("`materials` needs a `file` with named parts")
+            .error(format!("{} needs a `file`", item.name()))
             .help("give the material to the instance"));
     }
     let points = positions.list("a list of points [x, y, z]")?;

@@ -36,12 +36,14 @@ impl Assets for Memory {
     fn mesh(&mut self, path: &Path) -> Result<Mesh> {
         self.loaded.push(path.display().to_string());
         let part = |name: &str, at| MeshPart { name: name.into(), triangles: at..at + 1, material: None };
+        let whole = vec![MeshPart { name: String::new(), triangles: 0..2, material: None }];
+        let named = vec![part("steel", 0), part("paint", 1)];
         Ok(Mesh {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
             normals: vec![Vec3::Z; 3],
             uvs: Vec::new(),
             triangles: vec![[0, 1, 2]; 2],
-            parts: vec![part("steel", 0), part("paint", 1)],
+            parts: if path.ends_with("plain.ply") { whole } else { named },
             ..Mesh::default()
         })
     }

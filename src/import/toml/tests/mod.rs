@@ -297,9 +297,14 @@ fn meshes_and_instances_take_every_key() {
     assert!(car.normals.is_empty());
     assert_eq!(car.parts[0].material, material("glass"), "by `materials`");
     assert_eq!(car.parts[1].material, material("paint"), "by its own name");
+    let part = |name: &str, at, material| MeshPart { name: name.into(), triangles: at..at + 1, material };
+    assert_eq!(mesh("plain").parts, [part("lid", 0, material("glass")), part("", 1, None)]);
     let given: Vec<_> = scene.instances.iter().map(|instance| Some(instance.material)).collect();
     // The first is a displaced sphere; of the materials of parts any will do
-    assert_eq!(given, ["gold", "chalk", "glass", "white of a model", "steel", "gold", "gold"].map(material));
+    assert_eq!(
+        given,
+        ["gold", "chalk", "glass", "white of a model", "steel", "gold", "gold", "gold"].map(material)
+    );
     assert!(
         scene.instances[3].name.ends_with("chair.glb Some(1.5) Some(\"red\")"),
         "{}",
