@@ -38,6 +38,7 @@
 
 pub mod diff;
 mod error;
+pub mod export;
 pub mod film;
 pub mod gpu;
 pub mod import;

@@ -124,6 +124,7 @@ const IMAGE: &[&str] = &[
     "uv_set",
     "mapping_space",
     "mapping_transform",
+    "mapping_matrix",
     "pole",
     "meridian",
     "pole_u",
@@ -140,6 +141,7 @@ const STACK: &[&str] = &[
     "wrap",
     "space",
     "transform",
+    "matrix",
     "color_space",
     "channel",
     "scale",
@@ -151,6 +153,7 @@ const MAPPED: &[&str] = &[
     "uv_set",
     "mapping_space",
     "mapping_transform",
+    "mapping_matrix",
     "pole",
     "meridian",
     "pole_u",
@@ -163,6 +166,7 @@ pub(super) const MAPPING: &[&str] = &[
     "uv_set",
     "mapping_space",
     "mapping_transform",
+    "mapping_matrix",
     "pole",
     "meridian",
     "pole_u",
@@ -179,6 +183,7 @@ const NOISE: &[&str] = &[
     "normalize",
     "space",
     "transform",
+    "matrix",
     "filter_width",
 ];
 const FRACTAL: &[&str] = &[
@@ -194,6 +199,7 @@ const FRACTAL: &[&str] = &[
     "normalize",
     "space",
     "transform",
+    "matrix",
     "filter_width",
 ];
 const VALUE_NOISE: &[&str] = &[
@@ -206,14 +212,15 @@ const VALUE_NOISE: &[&str] = &[
     "octaves",
     "space",
     "transform",
+    "matrix",
     "filter_width",
 ];
 const VEINS: &[&str] =
-    &["octaves", "gain", "lacunarity", "variation", "stops", "space", "transform", "filter_width"];
+    &["octaves", "gain", "lacunarity", "variation", "stops", "space", "transform", "matrix", "filter_width"];
 const BRICK: &[&str] =
-    &["brick", "mortar", "size", "joint", "offset", "variation", "space", "transform", "filter_width"];
+    &["brick", "mortar", "size", "joint", "offset", "variation", "space", "transform", "matrix", "filter_width"];
 const WARP: &[&str] =
-    &["value", "by", "amount", "octaves", "gain", "lacunarity", "space", "transform", "filter_width"];
+    &["value", "by", "amount", "octaves", "gain", "lacunarity", "space", "transform", "matrix", "filter_width"];
 
 pub(super) const TEXTURE: Kinds = Kinds {
     common: &["kind"],
@@ -223,20 +230,20 @@ pub(super) const TEXTURE: Kinds = Kinds {
         ("glsl", &["file", "source", "parameters", "max"]),
         ("constant", &["color"]),
         ("vertex_color", &["channel"]),
-        ("checker", &["even", "odd", "dimensions", "space", "transform", "filter_width"]),
+        ("checker", &["even", "odd", "dimensions", "space", "transform", "matrix", "filter_width"]),
         ("noise", NOISE),
         ("fbm", FRACTAL),
         ("turbulence", FRACTAL),
         ("ridged", FRACTAL),
-        ("windy", &["low", "high", "octaves", "space", "transform", "filter_width"]),
+        ("windy", &["low", "high", "octaves", "space", "transform", "matrix", "filter_width"]),
         ("value_noise", VALUE_NOISE),
         ("marble", VEINS),
         ("wood", VEINS),
         ("granite", VEINS),
         ("brick", BRICK),
-        ("dots", &["inside", "outside", "radius", "space", "transform", "filter_width"]),
-        ("gradient", &["low", "high", "shape", "space", "transform"]),
-        ("worley", &["low", "high", "feature", "metric", "space", "transform"]),
+        ("dots", &["inside", "outside", "radius", "space", "transform", "matrix", "filter_width"]),
+        ("gradient", &["low", "high", "shape", "space", "transform", "matrix"]),
+        ("worley", &["low", "high", "feature", "metric", "space", "transform", "matrix"]),
         ("ramp", &["value", "stops", "smooth"]),
         ("curve", &["value", "points", "smooth"]),
         ("mix", &["a", "b", "amount"]),
@@ -268,6 +275,7 @@ pub(super) const MESH: &[&str] = &[
     "levels",
     "materials",
     "positions",
+    "round",
     "triangles",
     "polygons",
     "normals",
@@ -285,9 +293,9 @@ pub(super) const INSTANCE: &[&str] =
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];
 
 const SPOT: &[&str] =
-    &["position", "target", "direction", "up", "intensity", "scale", "power", "cone_angle", "falloff_angle"];
+    &["position", "target", "direction", "up", "transform", "intensity", "scale", "power", "cone_angle", "falloff_angle"];
 const PROJECTION: &[&str] =
-    &["position", "target", "direction", "up", "intensity", "scale", "power", "fov", "fov_axis", "aspect"];
+    &["position", "target", "direction", "up", "transform", "intensity", "scale", "power", "fov", "fov_axis", "aspect"];
 
 pub(super) const LIGHT: Kinds = Kinds {
     common: &["kind"],
@@ -295,7 +303,7 @@ pub(super) const LIGHT: Kinds = Kinds {
         ("point", &["position", "intensity", "scale", "power", "mapping", "rotate", "transform"]),
         ("spot", SPOT),
         ("projection", PROJECTION),
-        ("distant", &["direction", "from", "up", "irradiance", "scale"]),
+        ("distant", &["direction", "from", "up", "transform", "irradiance", "scale"]),
         ("sphere", shapes::SPHERE_LIGHT),
         ("disk", shapes::DISK_LIGHT),
         ("quad", shapes::QUAD_LIGHT),
@@ -317,7 +325,16 @@ pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
             &["blades", "aperture_image"],
         ],
     ),
-    ("texture", &[&["file", "files", "source"]]),
+    (
+        "texture",
+        &[
+            &["file", "files", "source"],
+            &["transform", "matrix"],
+            &["mapping_transform", "mapping_matrix"],
+            &["pole", "mapping_matrix"],
+            &["meridian", "mapping_matrix"],
+        ],
+    ),
     ("environment", &[&["color", "texture"], &["rotate", "transform"]]),
     (
         "material",
@@ -338,6 +355,10 @@ pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
             &["origin", "center"],
             &["scale", "power"],
             &["rotate", "transform"],
+            &["target", "transform"],
+            &["direction", "transform"],
+            &["from", "transform"],
+            &["up", "transform"],
         ],
     ),
 ];
