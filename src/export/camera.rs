@@ -102,19 +102,16 @@ impl Writer<'_> {
     }
 }
 
-/// The stop of a lens: as the f-number or the diameter that gives it to the last digit, or else as the nearest diameter.
+/// The stop of a lens, as the diameter that gives it to the last digit where one does.
 fn stop(keys: &mut Keys, camera: &LensCamera) -> Result<()> {
-    let open = Paraxial::of(&camera.system)?;
-    if camera.stop_diameter == open.stop_diameter {
+    if camera.stop_diameter == Paraxial::of(&camera.system)?.stop_diameter {
         return Ok(());
     }
-    let f_number = camera.paraxial()?.f_number() as f32;
-    let around = |value: f32| [value, value.next_down(), value.next_up()];
-    let exact = around(f_number).into_iter().find(|&n| open.stop_for(f64::from(n)) == camera.stop_diameter);
-    match exact {
-        Some(f_number) => keys.set("f_number", number(f_number)),
-        None => keys.set("aperture", number((camera.stop_diameter / f64::from(camera.unit)) as f32)),
-    }
+    let unit = f64::from(camera.unit);
+    let near = camera.stop_diameter / unit;
+    let exact = [near, near.next_down(), near.next_up()];
+    let exact = exact.into_iter().find(|aperture| aperture * unit == camera.stop_diameter);
+    keys.set("aperture", exact.unwrap_or(near));
     Ok(())
 }
 

@@ -146,7 +146,9 @@ fn write_whole(path: &Path, bytes: &[u8], replace: bool) -> io::Result<()> {
 fn refusal(path: &Path, error: &io::Error) -> Error {
     let help = match error.kind() {
         ErrorKind::AlreadyExists => "name another file, or give --force",
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "make room on the disk, or name a file on another",
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "make room on the disk, or name a file on another"
+        }
         _ => "name a file in a folder that you may write to",
     };
     // The name of the file beside it, which tempfile adds, says nothing to the user

@@ -179,8 +179,7 @@ fn steps(map: &Affine3A) -> Value {
         step.insert(key, value);
         Value::InlineTable(step)
     };
-    let diagonal =
-        Vec3::new(map.matrix3.x_axis.x, map.matrix3.y_axis.y, map.matrix3.z_axis.z);
+    let diagonal = Vec3::new(map.matrix3.x_axis.x, map.matrix3.y_axis.y, map.matrix3.z_axis.z);
     let scales = map.matrix3 == glam::Mat3A::from_diagonal(diagonal);
     let mut list = Array::new();
     if !scales {

@@ -175,7 +175,11 @@ impl Writer<'_> {
             table.set("texture", self.texture_name(map.texture));
             table.word("green", if map.green_down { "down" } else { "up" }, "up");
             table.number("strength", map.strength, 1.0);
-            table.word("tangents", if map.tangents == Tangents::Uv { "uv" } else { "mikktspace" }, "mikktspace");
+            table.word(
+                "tangents",
+                if map.tangents == Tangents::Uv { "uv" } else { "mikktspace" },
+                "mikktspace",
+            );
             keys.set("normal_map", table.inline());
         }
         if detail.bump.is_some() || detail.normal_map.is_some() {

@@ -4,9 +4,7 @@ use super::Writer;
 use super::keys::Keys;
 use super::texture::stops;
 use crate::Result;
-use crate::scene::{
-    Handle, Noise, NoiseSum, PerlinVariant, Spread, Texture, ValueNoise, VeinKind, Veins,
-};
+use crate::scene::{Handle, Noise, NoiseSum, PerlinVariant, Spread, Texture, ValueNoise, VeinKind, Veins};
 
 impl Writer<'_> {
     pub(super) fn noise(&self, noise: &Noise) -> Keys {

@@ -217,10 +217,30 @@ const VALUE_NOISE: &[&str] = &[
 ];
 const VEINS: &[&str] =
     &["octaves", "gain", "lacunarity", "variation", "stops", "space", "transform", "matrix", "filter_width"];
-const BRICK: &[&str] =
-    &["brick", "mortar", "size", "joint", "offset", "variation", "space", "transform", "matrix", "filter_width"];
-const WARP: &[&str] =
-    &["value", "by", "amount", "octaves", "gain", "lacunarity", "space", "transform", "matrix", "filter_width"];
+const BRICK: &[&str] = &[
+    "brick",
+    "mortar",
+    "size",
+    "joint",
+    "offset",
+    "variation",
+    "space",
+    "transform",
+    "matrix",
+    "filter_width",
+];
+const WARP: &[&str] = &[
+    "value",
+    "by",
+    "amount",
+    "octaves",
+    "gain",
+    "lacunarity",
+    "space",
+    "transform",
+    "matrix",
+    "filter_width",
+];
 
 pub(super) const TEXTURE: Kinds = Kinds {
     common: &["kind"],
@@ -292,10 +312,31 @@ pub(super) const INSTANCE: &[&str] =
 /// Steps of a `transform`.
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];
 
-const SPOT: &[&str] =
-    &["position", "target", "direction", "up", "transform", "intensity", "scale", "power", "cone_angle", "falloff_angle"];
-const PROJECTION: &[&str] =
-    &["position", "target", "direction", "up", "transform", "intensity", "scale", "power", "fov", "fov_axis", "aspect"];
+const SPOT: &[&str] = &[
+    "position",
+    "target",
+    "direction",
+    "up",
+    "transform",
+    "intensity",
+    "scale",
+    "power",
+    "cone_angle",
+    "falloff_angle",
+];
+const PROJECTION: &[&str] = &[
+    "position",
+    "target",
+    "direction",
+    "up",
+    "transform",
+    "intensity",
+    "scale",
+    "power",
+    "fov",
+    "fov_axis",
+    "aspect",
+];
 
 pub(super) const LIGHT: Kinds = Kinds {
     common: &["kind"],

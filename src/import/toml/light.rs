@@ -147,7 +147,10 @@ fn turned(view: &View<'_>, [a, b]: [&str; 2]) -> Result<Option<Mat3>> {
     }
     match [a, b, "up"].iter().find_map(|key| view.get(key)) {
         Some(item) => Err(item
-            .error(format!("{} has no meaning beside `transform`, which turns a light from −z with y up", item.name()))
+            .error(format!(
+                "{} has no meaning beside `transform`, which turns a light from −z with y up",
+                item.name()
+            ))
             .help("keep one or the other")),
         None => rotation(view).map(Some),
     }

@@ -229,6 +229,16 @@ impl<'a> Item<'a> {
         }
     }
 
+    /// The same, with all digits.
+    pub fn f64(&self, limits: Limits) -> Result<f64> {
+        let narrow = self.f32(limits)?;
+        Ok(match self.node.data {
+            Data::Integer(value) => value as f64,
+            Data::Float(value) => value,
+            _ => narrow.into(),
+        })
+    }
+
     pub fn is_number(&self) -> bool {
         matches!(self.node.data, Data::Integer(_) | Data::Float(_))
     }
