@@ -178,7 +178,7 @@ impl Assets for Memory {
     fn mesh(&mut self, _: &Path) -> Result<Mesh> {
         let triangles = vec![[0, 1, 2], [0, 2, 3]];
         let part = |name: &str, triangles| MeshPart { name: name.into(), triangles, material: None };
-        let parts = vec![part("steel", 0..1), part("", 1..2)];
+        let parts = vec![part("steel", 0..1), part("tin", 1..2)];
         Ok(Mesh { triangles, parts, ..Mesh::square() })
     }
 
