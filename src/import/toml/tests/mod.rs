@@ -299,7 +299,10 @@ fn meshes_and_instances_take_every_key() {
     assert_eq!(car.parts[1].material, material("paint"), "by its own name");
     let given: Vec<_> = scene.instances.iter().map(|instance| Some(instance.material)).collect();
     // The first is a displaced sphere; of the materials of parts any will do
-    assert_eq!(given, ["gold", "chalk", "glass", "white of a model", "steel", "gold", "gold"].map(material));
+    assert_eq!(
+        given,
+        ["gold", "chalk", "glass", "white of a model", "steel", "gold", "gold", "gold"].map(material)
+    );
     assert!(
         scene.instances[3].name.ends_with("chair.glb Some(1.5) Some(\"red\")"),
         "{}",
