@@ -2,9 +2,11 @@
 
 mod materials;
 mod shapes;
+mod textures;
 
 pub(super) use materials::MATERIAL;
 pub(super) use shapes::SHAPE;
+pub(super) use textures::{MAPPING, TEXTURE, TEXTURE_VALUE};
 
 /// Keys of an object that has a `kind`.
 pub(super) struct Kinds {
@@ -108,177 +110,6 @@ pub(super) const CAMERA: Kinds = Kinds {
         ("lens", LENS),
     ],
 };
-
-const IMAGE: &[&str] = &[
-    "file",
-    "filter",
-    "wrap",
-    "uv_scale",
-    "uv_rotate",
-    "uv_offset",
-    "color_space",
-    "channel",
-    "scale",
-    "invert",
-    "mapping",
-    "uv_set",
-    "mapping_space",
-    "mapping_transform",
-    "mapping_matrix",
-    "pole",
-    "meridian",
-    "pole_u",
-    "seam_blend",
-    "sharpness",
-];
-const STACK: &[&str] = &[
-    "file",
-    "files",
-    "first",
-    "count",
-    "axis",
-    "filter",
-    "wrap",
-    "space",
-    "transform",
-    "matrix",
-    "color_space",
-    "channel",
-    "scale",
-    "invert",
-];
-const MAPPED: &[&str] = &[
-    "value",
-    "mapping",
-    "uv_set",
-    "mapping_space",
-    "mapping_transform",
-    "mapping_matrix",
-    "pole",
-    "meridian",
-    "pole_u",
-    "seam_blend",
-    "sharpness",
-];
-/// Keys that place any texture that is looked up by u and v.
-pub(super) const MAPPING: &[&str] = &[
-    "mapping",
-    "uv_set",
-    "mapping_space",
-    "mapping_transform",
-    "mapping_matrix",
-    "pole",
-    "meridian",
-    "pole_u",
-    "seam_blend",
-    "sharpness",
-];
-const NOISE: &[&str] = &[
-    "low",
-    "high",
-    "variant",
-    "dimensions",
-    "w",
-    "w_rate",
-    "normalize",
-    "space",
-    "transform",
-    "matrix",
-    "filter_width",
-];
-const FRACTAL: &[&str] = &[
-    "low",
-    "high",
-    "octaves",
-    "gain",
-    "lacunarity",
-    "variant",
-    "dimensions",
-    "w",
-    "w_rate",
-    "normalize",
-    "space",
-    "transform",
-    "matrix",
-    "filter_width",
-];
-const VALUE_NOISE: &[&str] = &[
-    "low",
-    "high",
-    "dimensions",
-    "length",
-    "amplitude",
-    "frequency",
-    "octaves",
-    "space",
-    "transform",
-    "matrix",
-    "filter_width",
-];
-const VEINS: &[&str] =
-    &["octaves", "gain", "lacunarity", "variation", "stops", "space", "transform", "matrix", "filter_width"];
-const BRICK: &[&str] = &[
-    "brick",
-    "mortar",
-    "size",
-    "joint",
-    "offset",
-    "variation",
-    "space",
-    "transform",
-    "matrix",
-    "filter_width",
-];
-const WARP: &[&str] = &[
-    "value",
-    "by",
-    "amount",
-    "octaves",
-    "gain",
-    "lacunarity",
-    "space",
-    "transform",
-    "matrix",
-    "filter_width",
-];
-
-pub(super) const TEXTURE: Kinds = Kinds {
-    common: &["kind"],
-    kinds: &[
-        ("image", IMAGE),
-        ("stack", STACK),
-        ("glsl", &["file", "source", "parameters", "max"]),
-        ("constant", &["color"]),
-        ("vertex_color", &["channel"]),
-        ("checker", &["even", "odd", "dimensions", "space", "transform", "matrix", "filter_width"]),
-        ("noise", NOISE),
-        ("fbm", FRACTAL),
-        ("turbulence", FRACTAL),
-        ("ridged", FRACTAL),
-        ("windy", &["low", "high", "octaves", "space", "transform", "matrix", "filter_width"]),
-        ("value_noise", VALUE_NOISE),
-        ("marble", VEINS),
-        ("wood", VEINS),
-        ("granite", VEINS),
-        ("brick", BRICK),
-        ("dots", &["inside", "outside", "radius", "space", "transform", "matrix", "filter_width"]),
-        ("gradient", &["low", "high", "shape", "space", "transform", "matrix"]),
-        ("worley", &["low", "high", "feature", "metric", "space", "transform", "matrix"]),
-        ("ramp", &["value", "stops", "smooth"]),
-        ("curve", &["value", "points", "smooth"]),
-        ("mix", &["a", "b", "amount"]),
-        ("direction_mix", &["a", "b", "direction"]),
-        ("add", &["a", "b"]),
-        ("multiply", &["a", "b"]),
-        ("scale", &["value", "factor"]),
-        ("invert", &["value"]),
-        ("warp", WARP),
-        ("mapped", MAPPED),
-    ],
-};
-
-/// The key of a table that stands for the value of a texture.
-pub(super) const TEXTURE_VALUE: &[&str] = &["texture"];
 
 /// Keys of `bump`.
 pub(super) const BUMP: &[&str] = &["texture", "height", "derivative", "curvature_term"];
