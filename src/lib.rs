@@ -5,6 +5,7 @@
 //! | room | makes |
 //! |---|---|
 //! | [`import`] | files → [`scene::Scene`], a description without a GPU type |
+//! | [`export`] | [`scene::Scene`] → a scene file and what it names |
 //! | [`prepare`] | [`scene::Scene`] → [`prepare::Prepared`]: trees, records and texture code, without Vulkan |
 //! | [`shader`] | GLSL → SPIR-V, from a disk cache where it can |
 //! | [`gpu`] | a Vulkan device: all `unsafe` code is there |
@@ -38,6 +39,7 @@
 
 pub mod diff;
 mod error;
+pub mod export;
 pub mod film;
 pub mod gpu;
 pub mod import;

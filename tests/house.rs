@@ -22,6 +22,7 @@ const RUST_ROOMS: &[(&str, &[&str])] = &[
     ("prepare", &["scene", "layout"]),
     ("shader", &[]),
     ("gpu", &["layout", "shader"]),
+    ("export", &["scene"]),
     ("film", &["scene", "layout"]),
     ("diff", &["film", "import", "scene"]),
     ("render", &["prepare", "shader", "gpu", "film", "layout", "scene"]),

@@ -32,6 +32,8 @@ pub enum Command {
     Devices(DevicesArgs),
     /// Read and prepare a scene, and print what is in it; needs no device
     Check(CheckArgs),
+    /// Write a scene, in whatever language it is, as a scene of dapple's own; needs no device
+    Convert(ConvertArgs),
     /// Measure the speed of this machine on built-in scenes, or on one of yours
     Bench(BenchArgs),
     /// Print what a lens file is: focal length, f-number, principal planes and pupils; needs no device
@@ -330,6 +332,33 @@ pub struct CheckArgs {
     #[arg(long)]
     pub strict: bool,
     /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `dapple convert`.
+#[derive(Debug, ClapArgs)]
+pub struct ConvertArgs {
+    /// The scene: a TOML file, a model (.gltf, .glb, .obj), or a .pbrt file of pbrt-v4
+    pub scene: PathBuf,
+    /// The scene to write, NAME.toml; meshes, pictures and lenses go into the folder NAME_files beside it
+    pub output: PathBuf,
+    /// Replace what is there already
+    #[arg(long)]
+    pub force: bool,
+    /// Change a key of the scene, such as render.max_depth=3; may be given several times
+    #[arg(long, value_name = "key=value", value_parser = parse::setting)]
+    pub set: Vec<Setting>,
+    /// What is shown of models
+    #[command(flatten)]
+    pub model: ModelArgs,
+    /// Take what is not supported, and every other warning about the scene, as an error
+    #[arg(long)]
+    pub strict: bool,
+    /// Print nothing but errors
+    #[arg(short, long, conflicts_with = "json")]
+    pub quiet: bool,
+    /// Print what was written as one JSON object
     #[arg(long)]
     pub json: bool,
 }

@@ -8,6 +8,7 @@ mod bake;
 mod bench;
 mod check;
 mod console;
+mod convert;
 mod devices;
 mod diff;
 mod event;
@@ -50,6 +51,9 @@ pub fn run() -> ExitCode {
             with(Console::new(args.json, false), |c| Ok(devices::run(args.json, c)?))
         }
         Some(Command::Check(args)) => with(Console::new(args.json, false), |c| Ok(check::run(&args, c)?)),
+        Some(Command::Convert(args)) => {
+            with(Console::new(args.json, args.quiet), |c| Ok(convert::run(&args, c)?))
+        }
         Some(Command::Bench(args)) => with(Console::new(args.json, false), |c| Ok(bench::run(&args, c)?)),
         Some(Command::Bake(args)) => with(Console::new(args.json, args.quiet), |c| Ok(bake::run(&args, c)?)),
         Some(Command::Diff(args)) => with(Console::new(args.json, false), |c| Ok(diff::run(&args, c)?)),

@@ -108,8 +108,8 @@ fn materials() {
         ),
         ("[material.m]\nkind = 'mix'\na = 'x'\nb = 'm'", "3:5: no material is named `x`; materials are `m`"),
         (
-            "[material.m]\nkind = 'mix'\na = 'm'\nb = 'm'\nemission = 1",
-            "5:12: `emission` has no meaning for a mix, which sends out what its parts do; give it to `a` or `b`",
+            "[material.m]\nkind = 'mix'\na = 'm'\nb = 'm'\nemission_scale = 1",
+            "5:18: `emission_scale` needs `emission`; add `emission`",
         ),
         (
             "[material.m]\nkind = 'mix'\na = 'p'\nb = 'q'\n[material.p]\nkind = 'diffuse'\nemission = 1\ntwo_sided = true\n[material.q]\nkind = 'diffuse'\nemission = 1",

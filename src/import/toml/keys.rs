@@ -2,9 +2,11 @@
 
 mod materials;
 mod shapes;
+mod textures;
 
 pub(super) use materials::MATERIAL;
 pub(super) use shapes::SHAPE;
+pub(super) use textures::{MAPPING, TEXTURE, TEXTURE_VALUE};
 
 /// Keys of an object that has a `kind`.
 pub(super) struct Kinds {
@@ -109,150 +111,6 @@ pub(super) const CAMERA: Kinds = Kinds {
     ],
 };
 
-const IMAGE: &[&str] = &[
-    "file",
-    "filter",
-    "wrap",
-    "uv_scale",
-    "uv_rotate",
-    "uv_offset",
-    "color_space",
-    "channel",
-    "scale",
-    "invert",
-    "mapping",
-    "uv_set",
-    "mapping_space",
-    "mapping_transform",
-    "pole",
-    "meridian",
-    "pole_u",
-    "seam_blend",
-    "sharpness",
-];
-const STACK: &[&str] = &[
-    "file",
-    "files",
-    "first",
-    "count",
-    "axis",
-    "filter",
-    "wrap",
-    "space",
-    "transform",
-    "color_space",
-    "channel",
-    "scale",
-    "invert",
-];
-const MAPPED: &[&str] = &[
-    "value",
-    "mapping",
-    "uv_set",
-    "mapping_space",
-    "mapping_transform",
-    "pole",
-    "meridian",
-    "pole_u",
-    "seam_blend",
-    "sharpness",
-];
-/// Keys that place any texture that is looked up by u and v.
-pub(super) const MAPPING: &[&str] = &[
-    "mapping",
-    "uv_set",
-    "mapping_space",
-    "mapping_transform",
-    "pole",
-    "meridian",
-    "pole_u",
-    "seam_blend",
-    "sharpness",
-];
-const NOISE: &[&str] = &[
-    "low",
-    "high",
-    "variant",
-    "dimensions",
-    "w",
-    "w_rate",
-    "normalize",
-    "space",
-    "transform",
-    "filter_width",
-];
-const FRACTAL: &[&str] = &[
-    "low",
-    "high",
-    "octaves",
-    "gain",
-    "lacunarity",
-    "variant",
-    "dimensions",
-    "w",
-    "w_rate",
-    "normalize",
-    "space",
-    "transform",
-    "filter_width",
-];
-const VALUE_NOISE: &[&str] = &[
-    "low",
-    "high",
-    "dimensions",
-    "length",
-    "amplitude",
-    "frequency",
-    "octaves",
-    "space",
-    "transform",
-    "filter_width",
-];
-const VEINS: &[&str] =
-    &["octaves", "gain", "lacunarity", "variation", "stops", "space", "transform", "filter_width"];
-const BRICK: &[&str] =
-    &["brick", "mortar", "size", "joint", "offset", "variation", "space", "transform", "filter_width"];
-const WARP: &[&str] =
-    &["value", "by", "amount", "octaves", "gain", "lacunarity", "space", "transform", "filter_width"];
-
-pub(super) const TEXTURE: Kinds = Kinds {
-    common: &["kind"],
-    kinds: &[
-        ("image", IMAGE),
-        ("stack", STACK),
-        ("glsl", &["file", "source", "parameters", "max"]),
-        ("constant", &["color"]),
-        ("vertex_color", &["channel"]),
-        ("checker", &["even", "odd", "dimensions", "space", "transform", "filter_width"]),
-        ("noise", NOISE),
-        ("fbm", FRACTAL),
-        ("turbulence", FRACTAL),
-        ("ridged", FRACTAL),
-        ("windy", &["low", "high", "octaves", "space", "transform", "filter_width"]),
-        ("value_noise", VALUE_NOISE),
-        ("marble", VEINS),
-        ("wood", VEINS),
-        ("granite", VEINS),
-        ("brick", BRICK),
-        ("dots", &["inside", "outside", "radius", "space", "transform", "filter_width"]),
-        ("gradient", &["low", "high", "shape", "space", "transform"]),
-        ("worley", &["low", "high", "feature", "metric", "space", "transform"]),
-        ("ramp", &["value", "stops", "smooth"]),
-        ("curve", &["value", "points", "smooth"]),
-        ("mix", &["a", "b", "amount"]),
-        ("direction_mix", &["a", "b", "direction"]),
-        ("add", &["a", "b"]),
-        ("multiply", &["a", "b"]),
-        ("scale", &["value", "factor"]),
-        ("invert", &["value"]),
-        ("warp", WARP),
-        ("mapped", MAPPED),
-    ],
-};
-
-/// The key of a table that stands for the value of a texture.
-pub(super) const TEXTURE_VALUE: &[&str] = &["texture"];
-
 /// Keys of `bump`.
 pub(super) const BUMP: &[&str] = &["texture", "height", "derivative", "curvature_term"];
 /// Keys of `normal_map`.
@@ -269,6 +127,7 @@ pub(super) const MESH: &[&str] = &[
     "materials",
     "parts",
     "positions",
+    "round",
     "triangles",
     "polygons",
     "normals",
@@ -288,10 +147,31 @@ pub(super) const PART: &[&str] = &["name", "triangles", "material"];
 /// Steps of a `transform`.
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];
 
-const SPOT: &[&str] =
-    &["position", "target", "direction", "up", "intensity", "scale", "power", "cone_angle", "falloff_angle"];
-const PROJECTION: &[&str] =
-    &["position", "target", "direction", "up", "intensity", "scale", "power", "fov", "fov_axis", "aspect"];
+const SPOT: &[&str] = &[
+    "position",
+    "target",
+    "direction",
+    "up",
+    "transform",
+    "intensity",
+    "scale",
+    "power",
+    "cone_angle",
+    "falloff_angle",
+];
+const PROJECTION: &[&str] = &[
+    "position",
+    "target",
+    "direction",
+    "up",
+    "transform",
+    "intensity",
+    "scale",
+    "power",
+    "fov",
+    "fov_axis",
+    "aspect",
+];
 
 pub(super) const LIGHT: Kinds = Kinds {
     common: &["kind"],
@@ -299,7 +179,7 @@ pub(super) const LIGHT: Kinds = Kinds {
         ("point", &["position", "intensity", "scale", "power", "mapping", "rotate", "transform"]),
         ("spot", SPOT),
         ("projection", PROJECTION),
-        ("distant", &["direction", "from", "up", "irradiance", "scale"]),
+        ("distant", &["direction", "from", "up", "transform", "irradiance", "scale"]),
         ("sphere", shapes::SPHERE_LIGHT),
         ("disk", shapes::DISK_LIGHT),
         ("quad", shapes::QUAD_LIGHT),
@@ -321,7 +201,16 @@ pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
             &["blades", "aperture_image"],
         ],
     ),
-    ("texture", &[&["file", "files", "source"]]),
+    (
+        "texture",
+        &[
+            &["file", "files", "source"],
+            &["transform", "matrix"],
+            &["mapping_transform", "mapping_matrix"],
+            &["pole", "mapping_matrix"],
+            &["meridian", "mapping_matrix"],
+        ],
+    ),
     ("environment", &[&["color", "texture"], &["rotate", "transform"]]),
     (
         "material",
@@ -342,6 +231,10 @@ pub(super) const RIVALS: &[(&str, &[&[&str]])] = &[
             &["origin", "center"],
             &["scale", "power"],
             &["rotate", "transform"],
+            &["target", "transform"],
+            &["direction", "transform"],
+            &["from", "transform"],
+            &["up", "transform"],
         ],
     ),
 ];

@@ -154,13 +154,13 @@ fn focus_plane(view: &View<'_>, asker: Item<'_>, normal: Item<'_>, stand: &Stand
 /// Diameter of the stop in millimetres: that of the file, or less.
 fn stop_diameter(view: &View<'_>, lens: &Paraxial, unit: f32) -> Result<f64> {
     let Some(item) = view.either("f_number", "aperture")? else { return Ok(lens.stop_diameter) };
-    let value = item.f32(Limits::Above(0.0))?;
+    let value = item.f64(Limits::Above(0.0))?;
     let (diameter, rule) = if view.get("f_number").is_some() {
         let open = lens.f_number();
-        (lens.stop_for(f64::from(value)), format!("at least {open:.4}, what the lens has wide open"))
+        (lens.stop_for(value), format!("at least {open:.4}, what the lens has wide open"))
     } else {
         let most = number(lens.stop_diameter / f64::from(unit));
-        (f64::from(value) * f64::from(unit), format!("at most {most}, the stop of the lens"))
+        (value * f64::from(unit), format!("at most {most}, the stop of the lens"))
     };
     if diameter > lens.stop_diameter * (1.0 + ROUNDING) {
         return Err(item.refuse(value, rule));

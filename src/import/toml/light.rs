@@ -44,12 +44,7 @@ impl Reader<'_> {
                 let intensity = intensity()?;
                 (self.projector(&view, position, &intensity)?, intensity, frame)
             }
-            "distant" => {
-                let item = view.need_either("direction", "from")?;
-                let along = item.direction()?;
-                let direction = if view.get("from").is_some() { -along } else { along };
-                (LightKind::Distant, intensity()?, upright(&view, direction)?)
-            }
+            "distant" => (LightKind::Distant, intensity()?, from_afar(&view)?),
             _ => return self.area_light(&view, kind, name),
         };
         let strength = strength(&view)?;
@@ -145,9 +140,37 @@ fn strength(view: &View<'_>) -> Result<Strength> {
     })
 }
 
+/// The rotation of `transform`, when it is there in place of `up` and the two keys that say where a light shines.
+fn turned(view: &View<'_>, [a, b]: [&str; 2]) -> Result<Option<Mat3>> {
+    if view.get("transform").is_none() {
+        return Ok(None);
+    }
+    match [a, b, "up"].iter().find_map(|key| view.get(key)) {
+        Some(item) => Err(item
+            .error(format!(
+                "{} has no meaning beside `transform`, which turns a light from −z with y up",
+                item.name()
+            ))
+            .help("keep one or the other")),
+        None => rotation(view).map(Some),
+    }
+}
+
+/// The rotation of distant light.
+fn from_afar(view: &View<'_>) -> Result<Mat3> {
+    if let Some(frame) = turned(view, ["direction", "from"])? {
+        return Ok(frame);
+    }
+    let along = view.need_either("direction", "from")?.direction()?;
+    upright(view, if view.get("from").is_some() { -along } else { along })
+}
+
 /// Where a light is, and the rotation that aims it.
 fn aimed(view: &View<'_>) -> Result<(Vec3, Mat3)> {
     let position = view.need("position")?.vec3(Limits::Finite)?;
+    if let Some(frame) = turned(view, ["target", "direction"])? {
+        return Ok((position, frame));
+    }
     let item = view.need_either("target", "direction")?;
     let direction = if view.get("target").is_some() {
         let target = item.vec3(Limits::Finite)?;

@@ -7,7 +7,7 @@ use super::text::{Limits, shown, suggest};
 use super::view::{Item, View};
 use crate::Result;
 use crate::scene::{Handle, Material, Mesh, MeshPart};
-use glam::{Vec2, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Keys that only inline meshes have.
@@ -19,6 +19,8 @@ const LEVELS: u32 = 3;
 const MOST_SUBDIVIDED: u64 = 1 << 24;
 /// One triangle becomes four million.
 const MOST_LEVELS: u32 = 10;
+/// How far a vertex of a round mesh may be from the unit sphere.
+const MOST_OFF_SPHERE: f32 = 1e-4;
 
 impl Reader<'_> {
     pub fn mesh(&mut self, entry: &Entry) -> Result<()> {
@@ -55,6 +57,7 @@ impl Reader<'_> {
         if !smooth {
             mesh.normals = Vec::new();
         }
+        mesh.round = round(&view, &mesh)?;
         mesh.displacement = view.get("displacement").map(|item| self.displacement(item)).transpose()?;
         let handle = self.scene.meshes.add(&entry.key, mesh);
         self.meshes.add(&entry.key, entry.spot, handle);
@@ -133,6 +136,19 @@ impl Reader<'_> {
             Ok((entry.key.as_str(), (item, self.materials.find(item)?)))
         });
         pairs.collect()
+    }
+}
+
+/// Whether the vertices of a mesh are on the unit sphere and those that displacement adds shall be, too.
+fn round(view: &View<'_>, mesh: &Mesh) -> Result<bool> {
+    let Some(item) = view.get("round") else { return Ok(false) };
+    let round = item.bool()?;
+    let off = |point: &Vec3| (point.length() - 1.0).abs() > MOST_OFF_SPHERE;
+    match mesh.positions.iter().position(off).filter(|_| round) {
+        Some(vertex) => Err(item
+            .error(format!("`round` is for meshes on the sphere of radius 1 about the origin, and vertex {vertex} is not on it"))
+            .help("move the vertices, and scale the instance")),
+        None => Ok(round),
     }
 }
 

@@ -10,16 +10,6 @@ use glam::Vec3;
 
 impl Reader<'_> {
     pub(super) fn mix(&self, view: &View<'_>) -> Result<Mix> {
-        for key in ["emission", "emission_scale", "two_sided"] {
-            if let Some(item) = view.get(key) {
-                return Err(item
-                    .error(format!(
-                        "{} has no meaning for a mix, which sends out what its parts do",
-                        item.name()
-                    ))
-                    .help("give it to `a` or `b`"));
-            }
-        }
         Ok(Mix {
             a: self.materials.find(view.need("a")?)?,
             b: self.materials.find(view.need("b")?)?,
@@ -27,7 +17,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Gives each mix the emission of its parts, mixed by the same amount; those of least depth first.
+    /// Gives each mix without an emission of its own that of its parts, mixed by the same amount; those of least depth first.
     pub(super) fn mixed_emission(&mut self, entries: &[Entry], handles: &[Handle<Material>]) -> Result<()> {
         let mut mixes = Vec::new();
         for (entry, &handle) in entries.iter().zip(handles) {
@@ -37,6 +27,7 @@ impl Reader<'_> {
                 Some(depth) => mixes.push((depth, entry, handle)),
             }
         }
+        mixes.retain(|(_, _, handle)| self.scene.materials[*handle].emission.is_none());
         mixes.sort_by_key(|(depth, ..)| *depth);
         for (_, entry, handle) in mixes {
             let Surface::Mix(mix) = self.scene.materials[handle].surface.clone() else { continue };

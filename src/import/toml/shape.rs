@@ -5,7 +5,7 @@ use super::keys::{INSTANCE, SHAPE};
 use super::reader::Reader;
 use super::text::Limits;
 use super::transform::transform;
-use super::view::{Item, View};
+use super::view::{Item, View, is_unit};
 use crate::Result;
 use crate::scene::{Extent, Instance, Patch, Quadric, Shape, ShapeKind};
 use glam::{Affine3A, Vec3};
@@ -171,6 +171,10 @@ pub(super) fn axes(view: &View<'_>, key: &str) -> Result<[Vec3; 2]> {
     let axis = view.get(key).map_or(Ok(Vec3::Y), |item| item.direction())?.as_dvec3();
     let across = |v: Vec3| {
         let v = v.as_dvec3();
+        // What is at a right angle within rounding stays as it is
+        if is_unit(v.as_vec3()) && v.dot(axis).abs() <= 2.0 * f64::from(f32::EPSILON) {
+            return Some(v);
+        }
         (v - axis * v.dot(axis) / axis.length_squared())
             .try_normalize()
             .filter(|_| v.cross(axis).length() > MIN_SINE)

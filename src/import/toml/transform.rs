@@ -5,7 +5,7 @@ use super::text::Limits;
 use super::view::{Item, View};
 use crate::Result;
 use crate::import::affine::narrow;
-use glam::{Affine3A, DAffine3, DMat3, DQuat, DVec3};
+use glam::{Affine3A, DAffine3, DMat3, DQuat, DVec3, Mat3A};
 
 /// The map of a list of steps; the first step is applied first.
 pub(super) fn transform(item: Item<'_>) -> Result<Affine3A> {
@@ -44,6 +44,14 @@ fn step(item: Item<'_>) -> Result<DAffine3> {
         "scale" => DAffine3::from_scale(value.vec3(Limits::NotZero)?.as_dvec3()),
         _ => matrix(value)?,
     })
+}
+
+/// A map that need not have an inverse, as the rows of its matrix.
+pub(super) fn matrix_map(item: Item<'_>) -> Result<Affine3A> {
+    let map = matrix(item)?;
+    let [x, y, z, translation] =
+        [map.x_axis, map.y_axis, map.z_axis, map.translation].map(|column| column.as_vec3().into());
+    Ok(Affine3A { matrix3: Mat3A::from_cols(x, y, z), translation })
 }
 
 /// Rows of a 4×4 matrix, or of its first three rows.

@@ -8,6 +8,11 @@ use glam::{Vec2, Vec3, Vec4};
 use std::fmt;
 use std::path::PathBuf;
 
+/// Whether a vector has unit length within rounding.
+pub(super) fn is_unit(vector: Vec3) -> bool {
+    (vector.as_dvec3().length_squared() - 1.0).abs() <= 4.0 * f64::from(f32::EPSILON)
+}
+
 /// A table in which every key is known.
 pub(super) struct View<'a> {
     pub sources: &'a Sources,
@@ -224,6 +229,16 @@ impl<'a> Item<'a> {
         }
     }
 
+    /// The same, with all digits.
+    pub fn f64(&self, limits: Limits) -> Result<f64> {
+        let narrow = self.f32(limits)?;
+        Ok(match self.node.data {
+            Data::Integer(value) => value as f64,
+            Data::Float(value) => value,
+            _ => narrow.into(),
+        })
+    }
+
     pub fn is_number(&self) -> bool {
         matches!(self.node.data, Data::Integer(_) | Data::Float(_))
     }
@@ -323,9 +338,12 @@ impl<'a> Item<'a> {
         Ok(Vec4::from_array(self.numbers(limits)?))
     }
 
-    /// A vector that is not zero, scaled to unit length.
+    /// A vector that is not zero, scaled to unit length. One that has it within rounding stays as it is.
     pub fn direction(&self) -> Result<Vec3> {
         let vector = self.vec3(Limits::Finite)?;
+        if is_unit(vector) {
+            return Ok(vector);
+        }
         vector
             .as_dvec3()
             .try_normalize()

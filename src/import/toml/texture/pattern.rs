@@ -3,7 +3,7 @@
 use crate::Result;
 use crate::import::toml::reader::Reader;
 use crate::import::toml::text::Limits;
-use crate::import::toml::transform::transform;
+use crate::import::toml::transform::{matrix_map, transform};
 use crate::import::toml::view::View;
 use crate::scene::{Brick, Coordinates, Dots, Gradient, Metric, PatternSpace, Texture, WorleyFeature};
 use glam::{Affine3A, Vec2, Vec3};
@@ -82,12 +82,16 @@ impl Reader<'_> {
     }
 }
 
-/// Where a pattern is: `transform` moves it in the space that `space` names.
+/// Where a pattern is: `transform` moves it in the space that `space` names, or `matrix` is the map from there to the pattern.
 pub(super) fn space(view: &View<'_>) -> Result<PatternSpace> {
     let spaces = [("uv", Coordinates::Uv), ("object", Coordinates::Object), ("world", Coordinates::World)];
     let coordinates = view.choice_or("space", Coordinates::Object, &spaces)?;
-    let placed = view.get("transform").map_or(Ok(Affine3A::IDENTITY), transform)?;
+    let pattern_from_space = match view.either("transform", "matrix")? {
+        Some(item) if view.get("matrix").is_some() => matrix_map(item)?,
+        Some(item) => transform(item)?.inverse(),
+        None => Affine3A::IDENTITY,
+    };
     // Kinds that are not filtered have no such key
     let filter_width = view.f32_or("filter_width", 1.0, Limits::AtLeast(0.0))?;
-    Ok(PatternSpace { coordinates, pattern_from_space: placed.inverse(), filter_width })
+    Ok(PatternSpace { coordinates, pattern_from_space, filter_width })
 }

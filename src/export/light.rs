@@ -1,0 +1,89 @@
+//! `[[light]]` and `[environment]`. Lamps that are surfaces are shapes whose material shines.
+
+use super::Writer;
+use super::camera::axis;
+use super::keys::{Keys, color, number, vector};
+use crate::scene::{DirectionMapping, Environment, Light, LightKind, Strength, Value, facing};
+use glam::{Affine3A, Mat3, Vec3};
+
+impl Writer<'_> {
+    pub(super) fn light(&self, light: &Light) -> Keys {
+        let frame = &light.world_from_light;
+        let mut keys;
+        match light.kind {
+            LightKind::Point { position, mapping } => {
+                keys = self.shining("point", position, light);
+                map(&mut keys, mapping);
+                keys.transform("transform", &Affine3A::from_mat3(*frame));
+            }
+            LightKind::Spot { position, cone_angle, falloff_angle } => {
+                keys = self.shining("spot", position, light);
+                aim(&mut keys, frame);
+                keys.number("cone_angle", cone_angle, 30.0);
+                keys.number("falloff_angle", falloff_angle, cone_angle.min(5.0));
+            }
+            LightKind::Projection { position, fov, fov_axis, aspect } => {
+                keys = self.shining("projection", position, light);
+                aim(&mut keys, frame);
+                keys.number("fov", fov, 40.0);
+                axis(&mut keys, fov_axis);
+                keys.set("aspect", number(aspect));
+            }
+            LightKind::Distant => {
+                keys = Keys::of_kind("distant");
+                keys.set("irradiance", self.color(&light.intensity));
+                strength(&mut keys, light.strength);
+                aim(&mut keys, frame);
+            }
+        }
+        keys
+    }
+
+    fn shining(&self, kind: &str, position: Vec3, light: &Light) -> Keys {
+        let mut keys = Keys::of_kind(kind);
+        keys.set("position", vector(position));
+        keys.set("intensity", self.color(&light.intensity));
+        strength(&mut keys, light.strength);
+        keys
+    }
+
+    pub(super) fn environment(&self, environment: &Environment) -> Keys {
+        let mut keys = Keys::new();
+        match environment.radiance {
+            Value::Constant(radiance) => keys.set("color", color(radiance)),
+            Value::Texture(texture) => keys.set("texture", self.texture_name(texture)),
+        }
+        map(&mut keys, environment.mapping);
+        keys.number("scale", environment.scale, 1.0);
+        keys.transform("transform", &Affine3A::from_mat3(environment.world_from_environment));
+        keys
+    }
+}
+
+fn strength(keys: &mut Keys, strength: Strength) {
+    match strength {
+        Strength::Scale(scale) => keys.number("scale", scale, 1.0),
+        Strength::Power(power) => keys.set("power", number(power)),
+    }
+}
+
+fn map(keys: &mut Keys, mapping: DirectionMapping) {
+    if mapping == DirectionMapping::EqualArea {
+        keys.set("mapping", "equal_area");
+    }
+}
+
+/// Where a light shines: by direction and up where these give the same frame, else by the frame itself.
+fn aim(keys: &mut Keys, frame: &Mat3) {
+    let (direction, up) = (-frame.z_axis, frame.y_axis);
+    let usual = facing(direction, Vec3::Y).or_else(|| facing(direction, Vec3::NEG_Z));
+    let unit = (direction.as_dvec3().length_squared() - 1.0).abs() < f64::from(f32::EPSILON);
+    match (usual, facing(direction, up)) {
+        (Some(usual), _) if unit && usual == *frame => keys.set("direction", vector(direction)),
+        (_, Some(upright)) if unit && upright == *frame => {
+            keys.set("direction", vector(direction));
+            keys.set("up", vector(up));
+        }
+        _ => keys.transform("transform", &Affine3A::from_mat3(*frame)),
+    }
+}

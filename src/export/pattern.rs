@@ -1,0 +1,108 @@
+//! `[texture.NAME]`: patterns, and where they are.
+
+use super::Writer;
+use super::keys::{Keys, matrix, pair};
+use crate::scene::{Coordinates, Gradient, Metric, PatternSpace, Texture, Value, WorleyFeature};
+use glam::{Affine3A, Vec2, Vec3};
+
+/// The colours of clay and lime, which the reader takes where bricks have none.
+const CLAY: Vec3 = Vec3::new(0.42, 0.13, 0.07);
+const LIME: Vec3 = Vec3::new(0.55, 0.52, 0.47);
+
+impl Writer<'_> {
+    /// A pattern; of other textures nothing.
+    pub(super) fn pattern(&self, texture: &Texture) -> Keys {
+        let mut keys;
+        match texture {
+            Texture::Checker { dimensions, even, odd, space } => {
+                keys = Keys::of_kind("checker");
+                keys.count("dimensions", *dimensions, 3);
+                self.put_color(&mut keys, "even", even, 1.0);
+                self.put_color(&mut keys, "odd", odd, 0.0);
+                keys.space(space);
+            }
+            Texture::Noise(noise) => keys = self.noise(noise),
+            Texture::ValueNoise(noise) => keys = self.value_noise(noise),
+            Texture::Brick(wall) => {
+                keys = Keys::of_kind("brick");
+                for (key, value, usual) in [("brick", &wall.brick, CLAY), ("mortar", &wall.mortar, LIME)] {
+                    if *value != Value::Constant(usual) {
+                        keys.set(key, self.color(value));
+                    }
+                }
+                if wall.size != Vec2::new(3.0, 1.0) {
+                    keys.set("size", pair(wall.size));
+                }
+                keys.number("joint", wall.joint, 0.13);
+                keys.number("offset", wall.offset, 0.5);
+                keys.number("variation", wall.variation, 0.25);
+                keys.space(&wall.space);
+            }
+            Texture::Dots(dots) => {
+                keys = Keys::of_kind("dots");
+                self.put_color(&mut keys, "inside", &dots.inside, 1.0);
+                self.put_color(&mut keys, "outside", &dots.outside, 0.0);
+                keys.number("radius", dots.radius, 0.35);
+                keys.space(&dots.space);
+            }
+            Texture::Gradient { shape, low, high, space } => {
+                keys = Keys::of_kind("gradient");
+                let word = match shape {
+                    Gradient::Linear => "linear",
+                    Gradient::Cylindrical => "cylindrical",
+                    Gradient::Spherical => "spherical",
+                };
+                keys.word("shape", word, "linear");
+                self.low_and_high(&mut keys, low, high);
+                keys.space(space);
+            }
+            Texture::Worley { feature, metric, low, high, space } => {
+                keys = Keys::of_kind("worley");
+                let word = match feature {
+                    WorleyFeature::F1 => "f1",
+                    WorleyFeature::F2 => "f2",
+                    WorleyFeature::Difference => "f2_minus_f1",
+                    WorleyFeature::Edge => "edge",
+                };
+                keys.word("feature", word, "f1");
+                let word = match metric {
+                    Metric::Euclidean => "euclidean",
+                    Metric::Manhattan => "manhattan",
+                    Metric::Chebyshev => "chebyshev",
+                };
+                keys.word("metric", word, "euclidean");
+                self.low_and_high(&mut keys, low, high);
+                keys.space(space);
+            }
+            _ => keys = Keys::new(),
+        }
+        keys
+    }
+
+    pub(super) fn low_and_high(&self, keys: &mut Keys, low: &Value<Vec3>, high: &Value<Vec3>) {
+        self.put_color(keys, "low", low, 0.0);
+        self.put_color(keys, "high", high, 1.0);
+    }
+}
+
+impl Keys {
+    /// Where a pattern is.
+    pub(super) fn space(&mut self, space: &PatternSpace) {
+        let word = match space.coordinates {
+            Coordinates::Uv => "uv",
+            Coordinates::Object => "object",
+            Coordinates::World => "world",
+        };
+        self.word("space", word, "object");
+        if space.pattern_from_space != Affine3A::IDENTITY {
+            self.set("matrix", matrix(&space.pattern_from_space));
+        }
+        self.number("filter_width", space.filter_width, 1.0);
+    }
+
+    /// Gain and lacunarity.
+    pub(super) fn fractal(&mut self, gain: f32, lacunarity: f32) {
+        self.number("gain", gain, 0.5);
+        self.number("lacunarity", lacunarity, 2.0);
+    }
+}
