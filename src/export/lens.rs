@@ -17,28 +17,3 @@ pub(super) fn lens(system: &LensSystem) -> String {
     }
     text
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::import::{Spacing, read_lens};
-    use crate::scene::LensInterface;
-
-    #[test]
-    fn a_lens_is_read_back_as_it_was() {
-        let row =
-            |radius, thickness, index, abbe| LensInterface { radius, thickness, index, abbe, aperture: 9.1 };
-        let system = LensSystem {
-            notes: vec!["A triplet".into(), "of three rows".into()],
-            interfaces: vec![
-                row(50.1, 1.0 / 3.0, 1.5168, Some(64.17)),
-                row(0.0, 2.5, 1.7, None),
-                row(-1e3, 0.0, 1.0, None),
-            ],
-        };
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("lens.dat");
-        std::fs::write(&path, lens(&system)).unwrap();
-        assert_eq!(read_lens(&path, Spacing::Next).unwrap(), system);
-    }
-}

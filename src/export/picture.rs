@@ -48,33 +48,3 @@ fn exr(image: &Image, texels: &[[f32; 4]]) -> exr::error::Result<(&'static str, 
     picture.write().non_parallel().to_buffered(Cursor::new(&mut file))?;
     Ok(("exr", file))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::import::read_image;
-
-    fn read_back(image: &Image) -> (String, Image) {
-        let (extension, bytes) = picture(image).unwrap();
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("picture");
-        std::fs::write(&path, bytes).unwrap();
-        (extension.to_owned(), read_image(&path).unwrap())
-    }
-
-    #[test]
-    fn texels_are_read_back_as_they_were() {
-        let (width, height) = (3, 2);
-        let all = |f: fn(u32) -> Texels| Image { width, height, texels: f(6) };
-        let bytes = all(|n| Texels::Rgba8((0..n as u8).map(|i| [i, 255 - i, 7 * i, 40 * i]).collect()));
-        let words =
-            all(|n| Texels::Rgba16((0..n as u16).map(|i| [i, 65535 - i, 7777 * i, 9999 * i]).collect()));
-        let floats = all(|n| {
-            Texels::RgbaF32((0..n).map(|i| [i as f32 / 3.0, -0.1, 1e-20, 1e9 / (i + 1) as f32]).collect())
-        });
-        for (image, kind) in [(bytes, "png"), (words, "png"), (floats, "exr")] {
-            assert_eq!(read_back(&image), (kind.to_owned(), image));
-        }
-        assert!(picture(&Image::EMPTY).is_err());
-    }
-}

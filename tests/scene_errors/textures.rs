@@ -53,7 +53,7 @@ fn textures() {
         ),
         (
             "[texture.t]\nkind = 'image'\nfile = 'a.png'\ngamma = 2",
-            "4:1: unknown key `gamma` in image texture `t`; its keys are `kind`, `file`, `filter`, `wrap`, `uv_scale`, `uv_rotate`, `uv_offset`, `color_space`, `channel`, `scale`, `invert`, `mapping`, `uv_set`, `mapping_space`, `mapping_transform`, `pole`, `meridian`, `pole_u`, `seam_blend`, `sharpness`",
+            "4:1: unknown key `gamma` in image texture `t`; its keys are `kind`, `file`, `filter`, `wrap`, `uv_scale`, `uv_rotate`, `uv_offset`, `color_space`, `channel`, `scale`, `invert`, `mapping`, `uv_set`, `mapping_space`, `mapping_transform`, `mapping_matrix`, `pole`, `meridian`, `pole_u`, `seam_blend`, `sharpness`",
         ),
     ]);
 }

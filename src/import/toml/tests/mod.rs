@@ -303,7 +303,7 @@ fn meshes_and_instances_take_every_key() {
     // The first is a displaced sphere; of the materials of parts any will do
     assert_eq!(
         given,
-        ["gold", "chalk", "glass", "white of a model", "steel", "gold", "gold", "gold"].map(material)
+        ["gold", "chalk", "glass", "white of a model", "steel", "gold", "gold", "gold", "gold"].map(material)
     );
     assert!(
         scene.instances[3].name.ends_with("chair.glb Some(1.5) Some(\"red\")"),

@@ -6,7 +6,9 @@
     reason = "a test stops at what it cannot do"
 )]
 
+#[path = "../common/mod.rs"]
 mod common;
+mod files;
 
 use common::references;
 use dapple::Result;
@@ -141,7 +143,7 @@ fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 }
 
 /// Writes a scene, reads it, compares; and the same again, for the same files.
-fn same_again(scene: &Scene, name: &str) -> Scene {
+pub fn same_again(scene: &Scene, name: &str) -> Scene {
     let [first, second] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let [a, b] = [&first, &second].map(|folder| folder.path().join("out.toml"));
     write_scene(scene, &a, false).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -175,10 +177,13 @@ impl Assets for Memory {
         Ok(Image { width: 2, height: 1, texels })
     }
 
-    fn mesh(&mut self, _: &Path) -> Result<Mesh> {
+    fn mesh(&mut self, path: &Path) -> Result<Mesh> {
         let triangles = vec![[0, 1, 2], [0, 2, 3]];
         let part = |name: &str, triangles| MeshPart { name: name.into(), triangles, material: None };
-        let parts = vec![part("steel", 0..1), part("tin", 1..2)];
+        let parts = match path.ends_with("plain.ply") {
+            true => vec![part("", 0..2)],
+            false => vec![part("steel", 0..1), part("tin", 1..2)],
+        };
         Ok(Mesh { triangles, parts, ..Mesh::square() })
     }
 
@@ -195,7 +200,7 @@ impl Assets for Memory {
     }
 }
 
-const ALL_KEYS: &str = include_str!("../src/import/toml/tests/all_keys.toml");
+const ALL_KEYS: &str = include_str!("../../src/import/toml/tests/all_keys.toml");
 
 fn all_keys() -> Scene {
     let path = Path::new("scene.toml");
