@@ -7,6 +7,7 @@
 mod bake;
 mod bench;
 mod checks;
+mod convert;
 mod diff;
 mod errors;
 mod models;

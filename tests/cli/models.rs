@@ -4,7 +4,7 @@ use crate::{Room, png_size};
 use serde_json::{Value, json};
 
 /// A red triangle that shines, in front of an orthographic camera named `front`, with one animation that takes it away.
-fn model() -> String {
+pub fn model() -> String {
     // Positions, then the times 0 and 2, then the places 0 and 100 along x
     let numbers =
         [-1.0_f32, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0];
