@@ -13,7 +13,7 @@
 //! | [`film`] | [`film::Film`] → [`film::Picture`] → PNG or EXR |
 //! | [`diff`] | two pictures → how far they are apart |
 //!
-//! [`layout`] is what host and kernels agree on. The whole way:
+//! [`whole_file`] writes files, and [`layout`] is what host and kernels agree on. The whole way:
 //!
 //! ```no_run
 //! use dapple::gpu::{DeviceChoice, Gpu};
@@ -48,5 +48,6 @@ pub mod prepare;
 pub mod render;
 pub mod scene;
 pub mod shader;
+pub mod whole_file;
 
 pub use error::{Error, ErrorKind, Place, Result};

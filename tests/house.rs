@@ -16,14 +16,15 @@ use std::path::{Path, PathBuf};
 const RUST_ROOMS: &[(&str, &[&str])] = &[
     ("lib", ALL),
     ("error", &[]),
+    ("whole_file", &[]),
     ("layout", &[]),
     ("scene", &[]),
     ("import", &["scene"]),
     ("prepare", &["scene", "layout"]),
     ("shader", &[]),
     ("gpu", &["layout", "shader"]),
-    ("export", &["scene"]),
-    ("film", &["scene", "layout"]),
+    ("export", &["scene", "whole_file"]),
+    ("film", &["scene", "layout", "whole_file"]),
     ("diff", &["film", "import", "scene"]),
     ("render", &["prepare", "shader", "gpu", "film", "layout", "scene"]),
     // The program: its own modules, and the public items of the library as `dapple::`.

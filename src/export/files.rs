@@ -1,8 +1,8 @@
 //! The files of a scene: their names, and how they come to the disk.
 
-use crate::{Error, Result};
+use crate::{Error, Result, whole_file};
 use std::collections::BTreeSet;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// Longest part of the name of an object that goes into the name of its file.
@@ -109,7 +109,7 @@ impl Files {
 
     /// Makes a file once it is complete.
     fn write(&mut self, path: &Path, bytes: &[u8]) -> Result<()> {
-        write_whole(path, bytes, self.replace).map_err(|error| refusal(path, &error))?;
+        whole_file::write(path, bytes, self.replace).map_err(|error| refusal(path, &error))?;
         self.written.bytes += bytes.len() as u64;
         self.written.files.push(path.to_path_buf());
         Ok(())
@@ -128,20 +128,6 @@ fn check_name(scene: &Path) -> Result<()> {
     Err(Error::scene(message).help("end the name in .toml, the language that is written").in_file(scene))
 }
 
-fn write_whole(path: &Path, bytes: &[u8], replace: bool) -> io::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".dapple-").suffix(".tmp");
-    // As any new file: readable by all but for what the umask of the user takes away
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    let kept = if replace { file.persist(path) } else { file.persist_noclobber(path) };
-    kept.map(|_| ()).map_err(|refused| refused.error)
-}
-
 /// The error for a file that could not be written, with the next step.
 fn refusal(path: &Path, error: &io::Error) -> Error {
     let help = match error.kind() {
@@ -151,8 +137,6 @@ fn refusal(path: &Path, error: &io::Error) -> Error {
         }
         _ => "name a file in a folder that you may write to",
     };
-    // The name of the file beside it, which tempfile adds, says nothing to the user
-    let reason = error.to_string();
-    let reason = reason.split_once(" at path ").map_or(reason.as_str(), |(reason, _)| reason);
+    let reason = whole_file::reason(error);
     Error::output(format!("the file cannot be written: {reason}")).in_file(path).help(help)
 }

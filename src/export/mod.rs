@@ -20,6 +20,7 @@ mod shape;
 mod texture;
 
 pub use files::Written;
+pub use ply::ply;
 
 use crate::scene::{Handle, Image, Material, Mesh, Scene, Texture};
 use crate::{Error, Result};

@@ -2,8 +2,9 @@
 
 use crate::scene::Mesh;
 
-/// A binary little-endian PLY file of all vertices and triangles of a mesh: floats, which are read back as they are.
-pub(super) fn ply(mesh: &Mesh) -> Vec<u8> {
+/// A binary little-endian PLY file of all vertices and triangles of a mesh: floats, which are read back as they are. Parts,
+/// displacement and `round` are left out.
+pub fn ply(mesh: &Mesh) -> Vec<u8> {
     let mut header =
         format!("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.len());
     let groups: [(bool, &[&str]); 6] = [
@@ -17,8 +18,10 @@ pub(super) fn ply(mesh: &Mesh) -> Vec<u8> {
     for name in groups.iter().filter(|(there, _)| *there).flat_map(|(_, names)| *names) {
         header += &format!("property float {name}\n");
     }
+    // Where both fit: some programs know no other type than `int`
+    let index = if mesh.positions.len() <= i32::MAX as usize { "int" } else { "uint" };
     header += &format!(
-        "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+        "element face {}\nproperty list uchar {index} vertex_indices\nend_header\n",
         mesh.triangles.len()
     );
     let mut bytes = header.into_bytes();

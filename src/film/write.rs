@@ -1,12 +1,10 @@
 //! A picture becomes a file: the format by the extension, and the file whole or not at all.
 
-use std::fs::File;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use super::{Film, Picture, exr, png};
-use crate::scene;
-use crate::{Error, Result};
+use crate::{Error, Result, scene, whole_file};
 
 /// File formats of pictures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +67,7 @@ pub fn check_target(path: &Path) -> Result<Format> {
     if path.is_dir() {
         return Err(refusal(path, &io::Error::from(ErrorKind::IsADirectory)));
     }
-    new_beside(path).map_err(|error| refusal(path, &error))?;
+    whole_file::new_beside(path).map_err(|error| refusal(path, &error))?;
     Ok(format)
 }
 
@@ -98,37 +96,7 @@ pub fn write_bytes(path: &Path, bytes: Vec<u8>) -> Result<()> {
 
 /// Writes an encoded file whole or not at all.
 pub(super) fn write_file(path: &Path, bytes: io::Result<Vec<u8>>) -> Result<()> {
-    bytes
-        .and_then(|bytes| write_whole(path, |file| fill(file, &bytes)))
-        .map_err(|error| refusal(path, &error))
-}
-
-/// Makes `path` with what `content` writes, once it is complete.
-fn write_whole(path: &Path, content: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
-    let mut file = new_beside(path)?;
-    content(file.as_file_mut())?;
-    file.persist(path).map_err(|refused| refused.error)?;
-    Ok(())
-}
-
-/// Writes all bytes and waits until the disk has them.
-fn fill(file: &mut File, bytes: &[u8]) -> io::Result<()> {
-    file.write_all(bytes)?;
-    file.sync_all()
-}
-
-/// A new file in the folder of `path`, removed again unless it is renamed.
-fn new_beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".dapple-").suffix(".tmp");
-    // As any new file: readable by all but for what the umask of the user takes away
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
+    bytes.and_then(|bytes| whole_file::write(path, &bytes, true)).map_err(|error| refusal(path, &error))
 }
 
 /// The error for a file that could not be written, with the next step.
@@ -144,9 +112,7 @@ fn refusal(path: &Path, error: &io::Error) -> Error {
         ErrorKind::IsADirectory => "name a file with -o, not a folder",
         _ => "name another file with -o",
     };
-    // The name of the file beside it, which tempfile adds, says nothing to the user
-    let reason = error.to_string();
-    let reason = reason.split_once(" at path ").map_or(reason.as_str(), |(reason, _)| reason);
+    let reason = whole_file::reason(error);
     Error::output(format!("the picture cannot be written: {reason}")).in_file(path).help(help)
 }
 
@@ -156,7 +122,9 @@ mod tests {
     use crate::ErrorKind as Kind;
     use crate::film::tests::picture_of;
     use crate::scene::Rect;
-    use std::fs;
+    use crate::whole_file::{fill, write_with};
+    use std::fs::{self, File};
+    use std::io::Write;
 
     const META: Meta = Meta { seed: 1, samples_per_pixel: 2, radiance_exponent: -24, depth_exponent: -12 };
 
@@ -217,11 +185,11 @@ mod tests {
             file.write_all(b"half")?;
             Err(io::Error::from(ErrorKind::StorageFull))
         };
-        let error = write_whole(&path, half).unwrap_err();
+        let error = write_with(&path, true, half).unwrap_err();
         assert!(refusal(&path, &error).to_string().contains("make room on the disk"));
         assert!(names(folder.path()).is_empty());
         fs::write(&path, "before").unwrap();
-        write_whole(&path, half).unwrap_err();
+        write_with(&path, true, half).unwrap_err();
         assert_eq!(fs::read(&path).unwrap(), b"before");
         assert_eq!(names(folder.path()), ["a.png"]);
         // A picture that cannot be encoded

@@ -1,9 +1,8 @@
 //! The blob scene as files: `blob.toml` and `blob.ply`.
 
 use super::blob;
-use dapple::scene::Mesh;
-use dapple::{Error, Result};
-use std::io::{self, Write as _};
+use dapple::export::ply;
+use dapple::{Error, Result, whole_file};
 use std::path::Path;
 
 const SCENE: &str = "\
@@ -65,42 +64,9 @@ pub(super) fn write(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(|error| fail(folder, &error))?;
     for (name, bytes) in [("blob.ply", ply(&blob::mesh(7))), ("blob.toml", SCENE.as_bytes().to_vec())] {
         let path = folder.join(name);
-        write_whole(folder, &path, &bytes).map_err(|error| fail(&path, &error))?;
+        whole_file::write(&path, &bytes, true).map_err(|error| fail(&path, &error))?;
     }
     Ok(())
-}
-
-/// Writes a file under another name in the same folder and renames it once the disk has it.
-fn write_whole(folder: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".dapple-").suffix(".tmp");
-    // As any new file: readable by all but for what the umask of the user takes away
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|refused| refused.error)?;
-    Ok(())
-}
-
-/// Binary little-endian PLY.
-fn ply(mesh: &Mesh) -> Vec<u8> {
-    let mut out = format!(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\
-         element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        mesh.positions.len(),
-        mesh.triangles.len()
-    )
-    .into_bytes();
-    for p in &mesh.positions {
-        out.extend(p.to_array().iter().flat_map(|x| x.to_le_bytes()));
-    }
-    for t in &mesh.triangles {
-        out.push(3);
-        out.extend(t.iter().flat_map(|v| v.to_le_bytes()));
-    }
-    out
 }
 
 #[cfg(test)]
