@@ -263,15 +263,9 @@ pub struct RenderArgs {
     /// Folder of shaders that come before those of the program
     #[arg(long, value_name = "DIR")]
     pub shaders: Option<PathBuf>,
-    /// Change a key of the scene, such as render.max_depth=3; may be given several times
-    #[arg(long, value_name = "key=value", value_parser = parse::setting)]
-    pub set: Vec<Setting>,
-    /// What is shown of models
+    /// How the scene is read
     #[command(flatten)]
-    pub model: ModelArgs,
-    /// Take what is not supported, and every other warning about the scene, as an error
-    #[arg(long)]
-    pub strict: bool,
+    pub read: ReadArgs,
     /// Print nothing but errors (and the values that --pixel asks for)
     #[arg(short, long, conflicts_with = "json")]
     pub quiet: bool,
@@ -283,6 +277,20 @@ pub struct RenderArgs {
 const RENDER_HELP: &str = "Ctrl-C, SIGTERM and --time-limit end the render at a whole pass over the picture and \
     write it. A second Ctrl-C quits at once.\n\
     DAPPLE_VALIDATION=1 loads the Vulkan validation layer and takes each of its messages as an error.";
+
+/// How a scene is read.
+#[derive(Debug, ClapArgs)]
+pub struct ReadArgs {
+    /// Change a key of the scene, such as render.max_depth=3; may be given several times
+    #[arg(long, value_name = "key=value", value_parser = parse::setting)]
+    pub set: Vec<Setting>,
+    /// What is shown of models
+    #[command(flatten)]
+    pub model: ModelArgs,
+    /// Take what is not supported, and every other warning about the scene, as an error
+    #[arg(long)]
+    pub strict: bool,
+}
 
 /// What is shown of the glTF models of a scene.
 #[derive(Debug, ClapArgs)]
@@ -322,15 +330,9 @@ pub struct DevicesArgs {
 pub struct CheckArgs {
     /// The scene: a TOML file, a model (.gltf, .glb, .obj), or a .pbrt file of pbrt-v4
     pub scene: PathBuf,
-    /// Change a key of the scene, such as render.max_depth=3; may be given several times
-    #[arg(long, value_name = "key=value", value_parser = parse::setting)]
-    pub set: Vec<Setting>,
-    /// What is shown of models
+    /// How the scene is read
     #[command(flatten)]
-    pub model: ModelArgs,
-    /// Take what is not supported, and every other warning about the scene, as an error
-    #[arg(long)]
-    pub strict: bool,
+    pub read: ReadArgs,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -346,15 +348,9 @@ pub struct ConvertArgs {
     /// Replace what is there already
     #[arg(long)]
     pub force: bool,
-    /// Change a key of the scene, such as render.max_depth=3; may be given several times
-    #[arg(long, value_name = "key=value", value_parser = parse::setting)]
-    pub set: Vec<Setting>,
-    /// What is shown of models
+    /// How the scene is read
     #[command(flatten)]
-    pub model: ModelArgs,
-    /// Take what is not supported, and every other warning about the scene, as an error
-    #[arg(long)]
-    pub strict: bool,
+    pub read: ReadArgs,
     /// Print nothing but errors
     #[arg(short, long, conflicts_with = "json")]
     pub quiet: bool,

@@ -3,9 +3,9 @@
 use super::args::CheckArgs;
 use super::console::Console;
 use super::devices::bytes_text;
-use super::job::strictly;
+use super::job::read;
 use dapple::Result;
-use dapple::import::{ModelContents, Warning, is_gltf, model_contents, read_scene_showing};
+use dapple::import::{ModelContents, Warning, is_gltf, model_contents};
 use dapple::layout::Backend;
 use dapple::prepare::{self, Prepared, Stage};
 use dapple::render;
@@ -103,8 +103,7 @@ impl OfModel {
 
 /// Reads, prepares, prints.
 pub fn run(args: &CheckArgs, console: &mut Console) -> Result<()> {
-    let (scene, warnings) = read_scene_showing(&args.scene, &args.set, &args.model.choice())?;
-    strictly(args.strict, &warnings)?;
+    let (scene, warnings) = read(&args.scene, &args.read)?;
     if !args.json {
         warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
     }

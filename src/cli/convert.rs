@@ -3,10 +3,10 @@
 use super::args::ConvertArgs;
 use super::console::Console;
 use super::devices::bytes_text;
-use super::job::strictly;
+use super::job::read;
 use dapple::Result;
 use dapple::export::{Written, write_scene};
-use dapple::import::{Warning, read_scene_showing};
+use dapple::import::Warning;
 use serde::Serialize;
 
 /// What was written.
@@ -21,8 +21,7 @@ struct Report {
 
 /// Reads, writes, tells.
 pub fn run(args: &ConvertArgs, console: &mut Console) -> Result<()> {
-    let (scene, warnings) = read_scene_showing(&args.scene, &args.set, &args.model.choice())?;
-    strictly(args.strict, &warnings)?;
+    let (scene, warnings) = read(&args.scene, &args.read)?;
     if !args.json {
         warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
     }

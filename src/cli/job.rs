@@ -1,6 +1,6 @@
 //! The checked job: the scene is read and changed, the target is known to be writable.
 
-use super::args::RenderArgs;
+use super::args::{ReadArgs, RenderArgs};
 use super::parse::{Pixel, Size};
 use dapple::film;
 use dapple::gpu::{DeviceChoice, validation_from_environment};
@@ -37,8 +37,7 @@ impl Job {
             Some(folder) => Sources::folder(folder)?,
             None => Sources::embedded(),
         };
-        let (mut scene, warnings) = read_scene_showing(&args.scene, &args.set, &args.model.choice())?;
-        strictly(args.strict, &warnings)?;
+        let (mut scene, warnings) = read(&args.scene, &args.read)?;
         set_window(&mut scene.film, args.size, args.crop, args.pixel)?;
         scene.render.spp = args.spp.unwrap_or(scene.render.spp);
         scene.render.seed = args.seed.unwrap_or(scene.render.seed);
@@ -67,8 +66,15 @@ impl Job {
     }
 }
 
+/// A scene as the arguments say, and the warnings about it.
+pub fn read(scene: &Path, args: &ReadArgs) -> Result<(Scene, Vec<Warning>)> {
+    let (scene, warnings) = read_scene_showing(scene, &args.set, &args.model.choice())?;
+    strictly(args.strict, &warnings)?;
+    Ok((scene, warnings))
+}
+
 /// With `--strict` a warning is an error.
-pub fn strictly(strict: bool, warnings: &[Warning]) -> Result<()> {
+fn strictly(strict: bool, warnings: &[Warning]) -> Result<()> {
     match warnings.first().filter(|_| strict) {
         Some(Warning { place, message }) => Err(Error::scene(message)
             .help("leave out --strict to go on")
