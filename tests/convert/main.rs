@@ -45,11 +45,7 @@ fn difference(a: &Scene, b: &Scene) -> Option<String> {
     same("instances", instances[0] == instances[1]);
     let mut stores = Vec::new();
     stores.extend(first_unlike("material", &a.materials, &b.materials, |m, _| m.clone()));
-    stores.extend(first_unlike("mesh", &a.meshes, &b.meshes, |mesh, _| {
-        let mut mesh = mesh.clone();
-        mesh.parts = mesh.parts.into_iter().map(|part| MeshPart { name: String::new(), ..part }).collect();
-        mesh
-    }));
+    stores.extend(first_unlike("mesh", &a.meshes, &b.meshes, |mesh, _| mesh.clone()));
     let [pictures_a, pictures_b] = [a, b].map(|scene| pictures(scene));
     if pictures_a != pictures_b {
         let at = pictures_a.iter().zip(&pictures_b).position(|(a, b)| a != b);

@@ -51,3 +51,41 @@ fn subdivision_cuts_and_smooths() {
     let (scene, _) = read(text).unwrap();
     assert_eq!(scene.meshes.iter().next().unwrap().2.triangles.len(), 64, "three levels");
 }
+
+#[test]
+fn parts_are_all_of_a_mesh_that_has_none_of_its_own() {
+    let refused =
+        |file: &str, keys: &str| read(&format!("[mesh.m]\nfile = '{file}'\n{keys}")).unwrap_err().to_string();
+    let cases = [
+        (
+            "plain.ply",
+            "parts = [{ triangles = 1 }]",
+            "scene.toml:3:9: the parts have 1 triangles, the mesh has 2",
+        ),
+        (
+            "plain.ply",
+            "parts = [{ triangles = 1 }, { triangles = 2 }]",
+            "scene.toml:3:43: the parts have more than the 2 triangles of the mesh",
+        ),
+        (
+            "plain.ply",
+            "parts = [{ triangles = 0 }]",
+            "scene.toml:3:24: `triangles` is 0, must be from 1 to 4294967295",
+        ),
+        ("plain.ply", "parts = [{ name = 'a' }]", "scene.toml:3:10: `triangles` is missing in `parts[0]`"),
+        (
+            "car.obj",
+            "parts = [{ triangles = 2 }]",
+            "`parts` has no meaning for a mesh that has parts by itself",
+        ),
+        (
+            "plain.ply",
+            "parts = []\nmaterials = {}",
+            "scene.toml:3:9: `parts` has no meaning beside `materials`",
+        ),
+    ];
+    for (file, keys, message) in cases {
+        let found = refused(file, keys);
+        assert!(found.contains(message), "{keys}\n{found}");
+    }
+}
