@@ -99,9 +99,7 @@ impl Writer<'_> {
     }
 
     fn texture_value(&self, texture: scene::Handle<scene::Texture>) -> Value {
-        let mut table = InlineTable::new();
-        table.insert("texture", self.texture_name(texture).into());
-        Value::InlineTable(table)
+        one_key("texture", self.texture_name(texture))
     }
 
     /// A colour or a texture, unless it is this grey.
@@ -165,6 +163,11 @@ pub(super) fn rows(values: impl Iterator<Item = Value>) -> Value {
     Value::Array(list)
 }
 
+/// A table of one key.
+pub(super) fn one_key(key: &str, value: impl Into<Value>) -> Value {
+    Value::InlineTable(InlineTable::from_iter([(key, value.into())]))
+}
+
 /// The first three rows of a map.
 pub(super) fn matrix(map: &Affine3A) -> Value {
     let [x, y, z, t] =
@@ -174,23 +177,18 @@ pub(super) fn matrix(map: &Affine3A) -> Value {
 
 /// A map as steps: what only scales and moves says so.
 fn steps(map: &Affine3A) -> Value {
-    let step = |key: &str, value: Value| {
-        let mut step = InlineTable::new();
-        step.insert(key, value);
-        Value::InlineTable(step)
-    };
     let diagonal = Vec3::new(map.matrix3.x_axis.x, map.matrix3.y_axis.y, map.matrix3.z_axis.z);
     let scales = map.matrix3 == glam::Mat3A::from_diagonal(diagonal);
     let mut list = Array::new();
     if !scales {
-        list.push(step("matrix", matrix(map)));
+        list.push(one_key("matrix", matrix(map)));
         return Value::Array(list);
     }
     if diagonal != Vec3::ONE {
-        list.push(step("scale", color(diagonal)));
+        list.push(one_key("scale", color(diagonal)));
     }
     if map.translation != glam::Vec3A::ZERO {
-        list.push(step("translate", vector(map.translation.into())));
+        list.push(one_key("translate", vector(map.translation.into())));
     }
     Value::Array(list)
 }

@@ -3,7 +3,9 @@
 use super::Writer;
 use super::camera::axis;
 use super::keys::{Keys, color, number, vector};
-use crate::scene::{DirectionMapping, Environment, Light, LightKind, Strength, Value, facing};
+use crate::scene::{
+    DirectionMapping, Environment, Light, LightKind, Strength, Value, facing, facing_upright, is_unit,
+};
 use glam::{Affine3A, Mat3, Vec3};
 
 impl Writer<'_> {
@@ -76,14 +78,13 @@ fn map(keys: &mut Keys, mapping: DirectionMapping) {
 /// Where a light shines: by direction and up where these give the same frame, else by the frame itself.
 fn aim(keys: &mut Keys, frame: &Mat3) {
     let (direction, up) = (-frame.z_axis, frame.y_axis);
-    let usual = facing(direction, Vec3::Y).or_else(|| facing(direction, Vec3::NEG_Z));
-    let unit = (direction.as_dvec3().length_squared() - 1.0).abs() < f64::from(f32::EPSILON);
-    match (usual, facing(direction, up)) {
-        (Some(usual), _) if unit && usual == *frame => keys.set("direction", vector(direction)),
-        (_, Some(upright)) if unit && upright == *frame => {
-            keys.set("direction", vector(direction));
-            keys.set("up", vector(up));
-        }
-        _ => keys.transform("transform", &Affine3A::from_mat3(*frame)),
+    let is = |found: Option<Mat3>| is_unit(direction) && found == Some(*frame);
+    if is(Some(facing_upright(direction))) {
+        keys.set("direction", vector(direction));
+    } else if is(facing(direction, up)) {
+        keys.set("direction", vector(direction));
+        keys.set("up", vector(up));
+    } else {
+        keys.transform("transform", &Affine3A::from_mat3(*frame));
     }
 }

@@ -2,12 +2,8 @@
 
 use super::Writer;
 use super::keys::{Keys, matrix, pair};
-use crate::scene::{Coordinates, Gradient, Metric, PatternSpace, Texture, Value, WorleyFeature};
+use crate::scene::{Brick, Coordinates, Gradient, Metric, PatternSpace, Texture, Value, WorleyFeature};
 use glam::{Affine3A, Vec2, Vec3};
-
-/// The colours of clay and lime, which the reader takes where bricks have none.
-const CLAY: Vec3 = Vec3::new(0.42, 0.13, 0.07);
-const LIME: Vec3 = Vec3::new(0.55, 0.52, 0.47);
 
 impl Writer<'_> {
     /// A pattern; of other textures nothing.
@@ -25,7 +21,9 @@ impl Writer<'_> {
             Texture::ValueNoise(noise) => keys = self.value_noise(noise),
             Texture::Brick(wall) => {
                 keys = Keys::of_kind("brick");
-                for (key, value, usual) in [("brick", &wall.brick, CLAY), ("mortar", &wall.mortar, LIME)] {
+                for (key, value, usual) in
+                    [("brick", &wall.brick, Brick::CLAY), ("mortar", &wall.mortar, Brick::LIME)]
+                {
                     if *value != Value::Constant(usual) {
                         keys.set(key, self.color(value));
                     }

@@ -1,10 +1,10 @@
 //! `[[shape]]` and `[[instance]]`.
 
 use super::Writer;
-use super::keys::{Keys, matrix, number, pair, rows, vector};
+use super::keys::{Keys, matrix, number, one_key, pair, rows, vector};
 use crate::scene::{Extent, Instance, Patch, Quadric, Shape, ShapeKind};
 use glam::{Affine3A, Vec3};
-use toml_edit::{InlineTable, Value};
+use toml_edit::Value;
 
 impl Writer<'_> {
     pub(super) fn shape(&self, shape: &Shape) -> Keys {
@@ -97,8 +97,6 @@ fn patch(patch: &Patch) -> Keys {
 fn placed(keys: &mut Keys, open: &Affine3A, close: Option<&Affine3A>) {
     keys.transform("transform", open);
     if let Some(close) = close {
-        let mut step = InlineTable::new();
-        step.insert("matrix", matrix(close));
-        keys.set("transform_close", [Value::InlineTable(step)].into_iter().collect::<Value>());
+        keys.set("transform_close", [one_key("matrix", matrix(close))].into_iter().collect::<Value>());
     }
 }

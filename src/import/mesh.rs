@@ -1,7 +1,7 @@
 //! What the mesh readers share: choice of the format, polygons to triangles, unit normals.
 
 use super::{gltf::read_gltf_mesh, obj::read_obj, ply::read_ply};
-use crate::scene::Mesh;
+use crate::scene::{Mesh, unit};
 use crate::{Error, Result};
 use glam::{DVec3, Vec3};
 use std::path::Path;
@@ -95,21 +95,12 @@ fn find_ear(polygon: &[u32], positions: &[Vec3], normal: DVec3) -> Option<usize>
     })
 }
 
-/// A direction with unit length, or 0. One that has it already, up to its rounding, stays as it is.
-pub(super) fn unit(direction: Vec3) -> Vec3 {
-    let wide = direction.as_dvec3();
-    if (wide.length_squared() - 1.0).abs() <= f64::from(f32::EPSILON) {
-        return direction;
-    }
-    wide.normalize_or_zero().as_vec3()
-}
-
 /// Gives all normals unit length. One of zero length becomes the normal of a triangle at its vertex; where there
 /// is none with an area, +z.
 pub(super) fn normalize_normals(mesh: &mut Mesh) {
     let mut missing = 0_usize;
     for normal in &mut mesh.normals {
-        *normal = unit(*normal);
+        *normal = unit(*normal).unwrap_or_default();
         missing += usize::from(*normal == Vec3::ZERO);
     }
     if missing == 0 {

@@ -14,8 +14,9 @@ use std::path::Path;
 /// Reads the faces of a PLY file as triangles: ASCII, or binary of either byte order.
 ///
 /// * The element `vertex` has x, y, z; it may have nx, ny, nz, u, v (or s, t, or texture_u, texture_v), u1, v1 as a second
-///   set, and tangents tx, ty, tz with the side of the bitangent in tw, of any types. Normals and tangents get unit length. It may have red, green, blue, and beside them alpha: whole numbers are sRGB, of which
-///   255 is most, and 65535 for `ushort`; floats are linear. Alpha is linear.
+///   set, and tangents tx, ty, tz with the side of the bitangent in tw, of any types. Normals and tangents get unit length. It
+///   may have red, green, blue, and beside them alpha: whole numbers are sRGB, of which 255 is most, and 65535 for `ushort`;
+///   floats are linear. Alpha is linear.
 /// * The element `face` has a list `vertex_indices` or `vertex_index`. Polygons are cut into triangles.
 /// * All other elements and properties are passed over. The mesh is a single part without a name.
 ///

@@ -1,10 +1,9 @@
 //! The vertices of a PLY file.
 
-use super::mesh::unit;
 use super::ply::{Source, list_length};
 use super::ply_header::{Element, Scalar};
 use super::srgb::linear_from_srgb;
-use crate::scene::Mesh;
+use crate::scene::{Mesh, unit};
 use crate::{Error, Result};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -89,7 +88,7 @@ pub(super) fn read_vertices(element: &Element, source: &mut impl Source, mesh: &
         }
         if tangents.is_some() {
             let side = if tw < 0.0 { -1.0 } else { 1.0 };
-            mesh.tangents.push(unit(Vec3::new(tx, ty, tz)).extend(side));
+            mesh.tangents.push(unit(Vec3::new(tx, ty, tz)).unwrap_or_default().extend(side));
         }
         if colors.is_some() {
             mesh.colors.push(Vec4::new(red, green, blue, alpha));

@@ -129,6 +129,11 @@ pub fn facing(direction: Vec3, up: Vec3) -> Option<Mat3> {
     Some(Mat3::from_cols(right.as_vec3(), back.cross(right).as_vec3(), -direction))
 }
 
+/// The same with +y up, or −z where light goes along y.
+pub fn facing_upright(direction: Vec3) -> Mat3 {
+    facing(direction, Vec3::Y).or_else(|| facing(direction, Vec3::NEG_Z)).unwrap_or_default()
+}
+
 /// Tangents of half the angles that a projection fills to the right and upward.
 pub(crate) fn half_frustum(fov: f32, fov_axis: FovAxis, aspect: f32) -> Vec2 {
     let half_y = half_height(fov_axis, (0.5 * fov).to_radians().tan(), aspect);

@@ -92,6 +92,18 @@ pub struct Dielectric {
     pub thin: bool,
 }
 
+impl Dielectric {
+    /// No glass bends colours as differently as that; diamond has 55, dense flint glass 20.
+    pub const LEAST_ABBE: f32 = 1.0;
+    /// As good as no dispersion.
+    pub const MOST_ABBE: f32 = 1e6;
+
+    /// An Abbe number brought into its range; none of a number that is none.
+    pub fn abbe_within(abbe: f32) -> Option<f32> {
+        (abbe > 0.0).then(|| abbe.clamp(Self::LEAST_ABBE, Self::MOST_ABBE))
+    }
+}
+
 /// A dielectric interface over an opaque base, with nothing in between.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interface {

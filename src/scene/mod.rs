@@ -16,7 +16,9 @@ mod quadric;
 mod store;
 mod subdivide;
 mod texture;
+mod unit;
 
+pub(crate) use camera::LINES;
 pub use camera::{
     Aperture, Camera, FisheyeMapping, Focus, FovAxis, Lens, LensCamera, LensInterface, LensSystem, Measure,
     Opening, Paraxial, Perspective, Projection, Pupil, Stand, Stop, half_height,
@@ -27,7 +29,7 @@ pub use exposure::{Exposure, Meter, Shot, ToneCurve};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
 pub(crate) use light::half_frustum;
-pub use light::{DirectionMapping, Environment, Light, LightKind, Strength, facing};
+pub use light::{DirectionMapping, Environment, Light, LightKind, Strength, facing, facing_upright};
 pub use material::{
     CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Emission, Fresnel, Interface, Material, Mix,
     Principled, Roughness, Surface,
@@ -42,6 +44,7 @@ pub use texture::{
     Spread, StackTexture, TexelFilter, Texels, Texture, UvTransform, Value, ValueNoise, VeinKind, Veins,
     Warp, WorleyFeature, Wrap,
 };
+pub(crate) use unit::{is_unit, unit};
 
 /// A whole scene. The handles in it index the [`Store`]s of the same scene.
 #[derive(Debug, Clone, Default)]

@@ -5,13 +5,11 @@ use super::reader::Reader;
 use super::texture::{VECTOR, number_in};
 use crate::Result;
 use crate::scene::{
-    Channel, Detail, Emission, Handle, Material, NormalMap, Opacity, Principled, Roughness, Sides, Surface,
-    Tangents, Value,
+    Channel, Detail, Dielectric, Emission, Handle, Material, NormalMap, Opacity, Principled, Roughness,
+    Sides, Surface, Tangents, Value,
 };
 use glam::{Vec3, Vec4};
 
-/// Least Abbe number.
-const LEAST_ABBE: f32 = 1.0;
 /// Largest index of refraction; an ior of 0 means one without end.
 const MAX_INDEX: f32 = 100.0;
 /// Extensions of materials that are left out.
@@ -185,7 +183,7 @@ impl<'a> Reader<'a> {
         if let Some(dispersion) = json.extension("KHR_materials_dispersion")? {
             // 20 over the Abbe number
             let dispersion = dispersion.number_or("dispersion", 0.0)?;
-            principled.abbe = (dispersion > 0.0).then(|| (20.0 / dispersion).clamp(LEAST_ABBE, f32::MAX));
+            principled.abbe = Dielectric::abbe_within(20.0 / dispersion).filter(|_| dispersion > 0.0);
         }
         let color = Vec3::from(self.clamped(&volume, "attenuationColor", [1.0; 3])?);
         let distance = volume.number_or("attenuationDistance", f32::INFINITY)?;

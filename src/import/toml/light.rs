@@ -12,7 +12,7 @@ use super::view::View;
 use crate::Result;
 use crate::scene::{
     DirectionMapping, Emission, Environment, FovAxis, Handle, Light, LightKind, Material, Shape, Strength,
-    Surface, Texture, Value, Wrap, facing,
+    Surface, Texture, Value, Wrap, facing, facing_upright,
 };
 use glam::{Mat3, Vec3};
 
@@ -188,7 +188,7 @@ fn upright(view: &View<'_>, direction: Vec3) -> Result<Mat3> {
         Some(item) => facing(direction, item.direction()?).ok_or_else(|| {
             item.error("`up` is parallel to the direction of the light").help("turn one of them")
         }),
-        None => Ok(facing(direction, Vec3::Y).or_else(|| facing(direction, Vec3::NEG_Z)).unwrap_or_default()),
+        None => Ok(facing_upright(direction)),
     }
 }
 

@@ -18,10 +18,6 @@ const REFLECTANCE: Limits = Limits::From(0.0, 1.0);
 const MAX_EXPONENT: f32 = 1e6;
 /// Real materials reach about 8; the range leaves room and keeps squares harmless.
 const MAX_INDEX: f32 = 100.0;
-/// No glass bends colours as differently as that; diamond has 55, dense flint glass 20.
-const LEAST_ABBE: f32 = 1.0;
-/// As good as none.
-const MOST_ABBE: f32 = 1e6;
 /// The GGX widths of a surface, squared and as they are.
 const WIDTHS: [&str; 2] = ["roughness", "alpha"];
 
@@ -272,7 +268,7 @@ fn absorption(view: &View<'_>, thin: bool) -> Result<Vec3> {
 /// The Abbe number of glass.
 fn abbe(view: &View<'_>, thin: bool) -> Result<Option<f32>> {
     let item = of_inside(view, "abbe", thin)?;
-    item.map(|item| item.f32(Limits::From(LEAST_ABBE, MOST_ABBE))).transpose()
+    item.map(|item| item.f32(Limits::From(Dielectric::LEAST_ABBE, Dielectric::MOST_ABBE))).transpose()
 }
 
 /// One value for both directions, or a list of two.

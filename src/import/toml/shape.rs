@@ -5,9 +5,9 @@ use super::keys::{INSTANCE, SHAPE};
 use super::reader::Reader;
 use super::text::Limits;
 use super::transform::transform;
-use super::view::{Item, View, is_unit};
+use super::view::{Item, View};
 use crate::Result;
-use crate::scene::{Extent, Instance, Patch, Quadric, Shape, ShapeKind};
+use crate::scene::{Extent, Instance, Patch, Quadric, Shape, ShapeKind, is_unit};
 use glam::{Affine3A, Vec3};
 
 /// Sine of the angle below which two directions count as parallel.

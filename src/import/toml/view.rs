@@ -3,15 +3,11 @@
 use super::document::{Data, Entry, Node, Sources, Spot, Table};
 use super::keys::Kinds;
 use super::text::{Limits, closest, number, shown, suggest};
+use crate::scene::unit;
 use crate::{Error, Result};
 use glam::{Vec2, Vec3, Vec4};
 use std::fmt;
 use std::path::PathBuf;
-
-/// Whether a vector has unit length within rounding.
-pub(super) fn is_unit(vector: Vec3) -> bool {
-    (vector.as_dvec3().length_squared() - 1.0).abs() <= 4.0 * f64::from(f32::EPSILON)
-}
 
 /// A table in which every key is known.
 pub(super) struct View<'a> {
@@ -341,13 +337,7 @@ impl<'a> Item<'a> {
     /// A vector that is not zero, scaled to unit length. One that has it within rounding stays as it is.
     pub fn direction(&self) -> Result<Vec3> {
         let vector = self.vec3(Limits::Finite)?;
-        if is_unit(vector) {
-            return Ok(vector);
-        }
-        vector
-            .as_dvec3()
-            .try_normalize()
-            .map(|unit| unit.as_vec3())
+        unit(vector)
             .ok_or_else(|| self.error(format!("{} is the zero vector and gives no direction", self.name())))
     }
 }

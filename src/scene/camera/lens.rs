@@ -20,7 +20,7 @@ pub struct LensInterface {
 }
 
 /// Wavelengths of the F, d and C lines in micrometres.
-const LINES: [f64; 3] = [0.486_132_7, 0.587_561_8, 0.656_272_5];
+pub(crate) const LINES: [f64; 3] = [0.486_132_7, 0.587_561_8, 0.656_272_5];
 
 impl LensInterface {
     /// A and B of Cauchy's formula n(λ) = A + B/λ², with λ in micrometres, for the medium towards the film: through n_d, with

@@ -3,6 +3,7 @@
 mod lens;
 mod paraxial;
 
+pub(crate) use lens::LINES;
 pub use lens::{LensCamera, LensInterface, LensSystem, Measure, Stop};
 pub use paraxial::{Paraxial, Pupil};
 

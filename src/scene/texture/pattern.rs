@@ -86,6 +86,13 @@ pub struct Brick {
     pub space: PatternSpace,
 }
 
+impl Brick {
+    /// The colour of clay, of bricks for which a scene says none.
+    pub const CLAY: Vec3 = Vec3::new(0.42, 0.13, 0.07);
+    /// The colour of lime, of their mortar.
+    pub const LIME: Vec3 = Vec3::new(0.55, 0.52, 0.47);
+}
+
 /// Disks in about every other unit square of x and y, each somewhere inside its square (pbrt, `dots`).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dots {

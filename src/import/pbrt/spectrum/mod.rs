@@ -8,6 +8,7 @@ use super::parameters::Parameters;
 use super::reader::Reader;
 use crate::Result;
 use crate::import::text::{Limits, shown, suggest};
+use crate::scene::{Dielectric, LINES};
 use glam::{DVec3, Vec3};
 
 /// What a spectrum is of, which decides how it becomes RGB.
@@ -32,8 +33,6 @@ pub(super) enum Spectrum {
     Glass([f32; 2]),
 }
 
-/// The lines F, d and C in nanometres.
-const LINES: [f64; 3] = [486.132_7, 587.561_8, 656.272_5];
 /// Largest reflectance of a metal: at 1 its index would be infinite.
 const MOST_REFLECTANCE: f64 = 0.99;
 
@@ -64,9 +63,9 @@ impl Spectrum {
             Self::Rgb(rgb) => (rgb.y, None),
             Self::Glass([index, abbe]) => (*index, Some(*abbe)),
             Self::Samples(list) => {
-                let [f, d, c] = LINES.map(|wavelength| interpolated(list, wavelength));
-                let abbe = (d - 1.0) / (f - c);
-                (d as f32, (f > c && abbe > 0.0).then_some(abbe as f32))
+                let [f, d, c] = LINES.map(|micrometres| interpolated(list, 1000.0 * micrometres));
+                let abbe = ((d - 1.0) / (f - c)) as f32;
+                (d as f32, Dielectric::abbe_within(abbe).filter(|_| f > c))
             }
         }
     }

@@ -21,8 +21,6 @@ const FEATURES: [(&str, WorleyFeature); 4] = [
 ];
 const METRICS: [(&str, Metric); 3] =
     [("euclidean", Metric::Euclidean), ("manhattan", Metric::Manhattan), ("chebyshev", Metric::Chebyshev)];
-const CLAY: Vec3 = Vec3::new(0.42, 0.13, 0.07);
-const LIME: Vec3 = Vec3::new(0.55, 0.52, 0.47);
 
 impl Reader<'_> {
     pub(super) fn checker(&self, view: &View<'_>) -> Result<Texture> {
@@ -59,8 +57,8 @@ impl Reader<'_> {
 
     pub(super) fn brick(&self, view: &View<'_>) -> Result<Texture> {
         Ok(Texture::Brick(Brick {
-            brick: self.input_or(view, "brick", CLAY)?,
-            mortar: self.input_or(view, "mortar", LIME)?,
+            brick: self.input_or(view, "brick", Brick::CLAY)?,
+            mortar: self.input_or(view, "mortar", Brick::LIME)?,
             size: match view.get("size") {
                 Some(item) => item.vec2(Limits::Above(0.0))?,
                 None => Vec2::new(3.0, 1.0),
