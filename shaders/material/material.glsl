@@ -11,6 +11,15 @@
 #include "material/principled_verbs.glsl"
 #include "material/point.glsl"
 
+// Whether some of its samples are mirror directions.
+bool bsdf_may_mirror(Bsdf b)
+{
+#ifdef HAS_COATED_DIFFUSE
+    if (b.kind == MATERIAL_COATED_DIFFUSE) return interface_is_smooth(b);
+#endif
+    return bsdf_is_specular(b);
+}
+
 // Value of the BSDF, without the cosine.
 vec3 bsdf_eval(Bsdf b, vec3 wo, vec3 wi)
 {

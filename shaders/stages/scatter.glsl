@@ -21,15 +21,17 @@ void bend_cone(inout WaveRay ray, Surface surface, BsdfSample s, vec3 wo)
 }
 #endif
 
-// Chooses the next direction; false when the path ends.
-bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, inout WaveRay ray)
+// Chooses the next direction; false when the path ends. The last event goes on in mirror directions alone.
+bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, bool last, inout WaveRay ray)
 {
+    if (last && !bsdf_may_mirror(bsdf)) return false;
     float lobe = sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_LOBE));
     uint color = COLOR_ALL;
     BsdfSample s = dispersed_sample(bsdf, color, wo, lobe, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_BSDF)));
     vec3 wi = basis_to_world(basis, s.wi);
     float side = dot(wi, surface.geometric);
     if (max_component(s.weight) <= 0.0 || !s.through && !may_reflect(surface, side)) return false;
+    if (last && s.pdf > 0.0) return false;
 #ifdef GEOMETRIC_VETO
     if (side * s.wi.z <= 0.0) return false;
 #endif

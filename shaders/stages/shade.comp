@@ -93,7 +93,7 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
 #if defined(HAS_LIGHTS) || defined(HAS_ENVIRONMENT)
     if (!specular) sample_direct_light(path, surface, bsdf, basis, wo, last, slot, next);
 #endif
-    return !last && scatter(path, surface, bsdf, basis, wo, ray);
+    return scatter(path, surface, bsdf, basis, wo, last, ray);
 }
 
 void main()

@@ -1,8 +1,10 @@
 //! Paths: how they go on, and when they end.
 
 use crate::common::render::*;
+use crate::common::twins::fresnel::fresnel_dielectric;
 use dapple::scene::*;
 use glam::{Affine3A, Vec3};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 #[test]
 fn max_depth_counts_scattering_events() {
@@ -64,6 +66,19 @@ fn diffuse_bounces_count_what_is_not_mirror_or_glass() {
     let p = render(&s);
     let seen = mean(&p).mean[0];
     assert!((seen - 0.5 * lit).abs() < 1e-4, "{seen}, expected {}", 0.5 * lit);
+}
+
+#[test]
+fn the_last_diffuse_event_still_mirrors_in_a_smooth_coat() {
+    // Varnish over black, seen at 45°, sends what Fresnel says to the sky behind
+    let mut s = scene(4, 4, 4096);
+    s.render.diffuse_bounces = Some(0);
+    let interface = Interface { ior: 1.5, roughness: Roughness::alpha(0.0) };
+    let varnish = s.material(Surface::CoatedDiffuse(CoatedDiffuse { color: grey(0.0), interface }), None);
+    s.quad(Vec3::new(4.0, 1.0, -1.0), Vec3::new(2.0, -2.0, 0.0), Vec3::Z * 2.0, varnish);
+    s.camera = look(Vec3::ZERO, Vec3::X, 0.02);
+    s.environment = Some(Environment::new(grey(1.0)));
+    expect_every_pixel(&render(&s), [fresnel_dielectric(FRAC_1_SQRT_2, 1.5); 3], 1e-3);
 }
 
 #[test]

@@ -96,7 +96,7 @@ impl Reader<'_> {
         if let Some(&known) = self.wardrobe.worn.get(&key) {
             return known;
         }
-        let name = format!("{} at {}", shown(self.scene.materials.name(base)), spot.place());
+        let name = spot.name(&shown(self.scene.materials.name(base)));
         let handle = self.scene.materials.add(name, diffuse(0.5));
         self.wardrobe.worn.insert(key, handle);
         let dress = Dress { handle, base, emission, alpha: *alpha, tangents: *tangents, spot: spot.clone() };

@@ -44,7 +44,7 @@ impl Reader<'_> {
         let (kind, from) = self.of_kind(lexer, "Material", spot, Some(Target::Material))?;
         let material = self.surface(&kind, &from)?;
         from.finish()?;
-        let handle = self.scene.materials.add(format!("{kind} at {}", spot.place()), material);
+        let handle = self.scene.materials.add(spot.name(&kind), material);
         if kind == "interface" {
             self.wardrobe.interfaces.insert(handle);
         }

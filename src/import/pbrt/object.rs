@@ -120,7 +120,7 @@ impl Reader<'_> {
             }
         }
         let material = thing.material;
-        let name = format!("{} of {}", thing.kind, thing.spot.place());
+        let name = thing.spot.name(thing.kind);
         match thing.geometry {
             Geometry::Shape(kind) => {
                 self.scene.shapes.push(Shape { name, kind, material, world_from_object, at_close });

@@ -28,6 +28,13 @@ impl Spot {
         Place { file: self.file.to_path_buf(), line: self.line, column: self.column }
     }
 
+    /// A name for what is made here and has none: it has the name of the file without its folders, as scenes are written for others to
+    /// read.
+    pub fn name(&self, thing: &str) -> String {
+        let file = self.file.file_name().map_or_else(PathBuf::new, PathBuf::from);
+        format!("{thing} at {}", Place { file, ..self.place() })
+    }
+
     /// The path of a file that is named here: relative to the file that names it.
     pub fn resolve(&self, name: &str) -> PathBuf {
         self.file.parent().map_or_else(|| PathBuf::from(name), |folder| folder.join(name))

@@ -106,7 +106,7 @@ impl Reader<'_> {
         self.unsupported(Unsupported::InsideOut, &looks.spot);
         let mesh = super::mesh::oriented(mesh(), true);
         self.made(mesh.triangles.len(), &looks.spot)?;
-        let name = format!("{kind} of {}", looks.spot.place());
+        let name = looks.spot.name(kind);
         let handle = self.scene.meshes.add(name, mesh);
         self.add_shape(kind, Geometry::Mesh(handle), area, looks)
     }

@@ -89,7 +89,7 @@ impl Reader<'_> {
                 self.worn(emission, looks)
             }
         };
-        let name = format!("{kind} of {}", looks.spot.place());
+        let name = looks.spot.name(kind);
         let handle = self.scene.meshes.add(name, mesh);
         self.add(kind, Geometry::Mesh(handle), material, &looks.spot)
     }
