@@ -6,6 +6,7 @@ use crate::{Error, Result};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Largest scene file in bytes. Meshes of that size belong into PLY files.
 const MAX_TEXT_BYTES: u64 = 256 << 20;
@@ -16,7 +17,7 @@ pub trait Assets {
     ///
     /// # Errors
     /// When the file cannot be read or is no picture.
-    fn image(&mut self, path: &Path) -> Result<Image>;
+    fn image(&mut self, path: &Path) -> Result<Arc<Image>>;
 
     /// Reads a triangle mesh. The parts of the mesh carry names and no materials.
     ///
@@ -44,8 +45,8 @@ pub trait Assets {
     ///
     /// # Errors
     /// When the file cannot be read or is no volume.
-    fn volume(&mut self, path: &Path) -> Result<Vec<Image>> {
-        crate::import::read_volume(path)
+    fn volume(&mut self, path: &Path) -> Result<Vec<Arc<Image>>> {
+        Ok(crate::import::read_volume(path)?.into_iter().map(Arc::new).collect())
     }
 
     /// Whether the file is there, so that a wrong name is reported at its place in the scene.
@@ -82,7 +83,7 @@ mod tests {
 
     struct Files;
     impl Assets for Files {
-        fn image(&mut self, path: &Path) -> Result<Image> {
+        fn image(&mut self, path: &Path) -> Result<Arc<Image>> {
             Err(Error::scene("no picture").in_file(path))
         }
         fn mesh(&mut self, path: &Path) -> Result<Mesh> {

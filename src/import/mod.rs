@@ -39,13 +39,14 @@ pub use warning::Warning;
 use crate::Result;
 use crate::scene::{Image, LensSystem, Mesh, Scene};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Reads images, meshes and lenses from the file system.
 struct Files;
 
 impl Assets for Files {
-    fn image(&mut self, path: &Path) -> Result<Image> {
-        read_image(path)
+    fn image(&mut self, path: &Path) -> Result<Arc<Image>> {
+        read_image(path).map(Arc::new)
     }
 
     fn mesh(&mut self, path: &Path) -> Result<Mesh> {

@@ -9,7 +9,6 @@ use crate::prepare::{self, Features, Prepared, Stage, prepare_textures};
 use crate::scene::{Handle, Scene, Texture};
 use crate::shader::Compiler;
 use crate::{Error, Result};
-use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Most points of one dispatch.
@@ -56,7 +55,7 @@ impl Evaluator {
         let values = gpu.buffer("values", value_bytes, Place::Device)?;
         let host = gpu.buffer("values (host)", value_bytes, Place::Readback)?;
         let records = gpu.upload("textures", bytemuck::cast_slice(&textures.records))?;
-        let texels = upload_texels(&gpu, &textures.atlas, |image| Cow::Borrowed(&scene.images[image]))?;
+        let texels = upload_texels(&gpu, &textures.atlas, |image| scene.images.shared(image))?;
         let bindings = gpu.bindings(
             &layout,
             &[

@@ -4,14 +4,13 @@ use crate::Result;
 use crate::gpu::{Buffer, Gpu};
 use crate::prepare::{Atlas, Prepared};
 use crate::scene::{Handle, Image, Store};
-use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Puts the pictures of an atlas on the device, page by page.
-pub(super) fn upload_texels<'a>(
+pub(super) fn upload_texels(
     gpu: &Gpu,
     atlas: &Atlas,
-    picture: impl FnMut(Handle<Image>) -> Cow<'a, Image>,
+    picture: impl FnMut(Handle<Image>) -> Arc<Image>,
 ) -> Result<Arc<Buffer>> {
     let word = size_of::<[u32; 4]>();
     gpu.upload_parts("texels", (atlas.words() * word) as u64, |write| {
@@ -30,7 +29,7 @@ impl Resident {
     ///
     /// # Errors
     /// When it is larger than the memory or the buffers of the device.
-    pub fn upload(gpu: &Gpu, prepared: Prepared, mut images: Store<Image>) -> Result<Self> {
+    pub fn upload(gpu: &Gpu, prepared: Prepared, images: Store<Image>) -> Result<Self> {
         let mut buffers = Vec::new();
         let mut put = |name: &'static str, bytes: &[u8]| -> Result<()> {
             if !bytes.is_empty() {
@@ -59,7 +58,9 @@ impl Resident {
         put("lens", bytemuck::cast_slice(&prepared.lens.words))?;
         let atlas = prepared.atlas;
         if atlas.words() > 0 {
-            let take = |image| Cow::Owned(std::mem::replace(&mut images[image], Image::EMPTY));
+            let empty = Arc::new(Image::EMPTY);
+            let mut images: Vec<_> = images.into_items().collect();
+            let take = |image: Handle<Image>| std::mem::replace(&mut images[image.index()], empty.clone());
             buffers.push(("texels", upload_texels(gpu, &atlas, take)?));
         }
         Ok(Self { buffers })

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::{Index, IndexMut};
+use std::sync::Arc;
 
 /// Index of an object in its [`Store`]: typed, so that a material cannot be taken for a mesh.
 pub struct Handle<T> {
@@ -52,9 +53,17 @@ impl<T> fmt::Debug for Handle<T> {
 
 /// Named objects in the order in which they were added. Names need not be unique here: readers that
 /// promise unique names check that themselves.
-#[derive(Debug, Clone)]
+///
+/// Copies of a store share their objects, until one of them is changed.
+#[derive(Debug)]
 pub struct Store<T> {
-    items: Vec<(String, T)>,
+    items: Vec<(String, Arc<T>)>,
+}
+
+impl<T> Clone for Store<T> {
+    fn clone(&self) -> Self {
+        Self { items: self.items.clone() }
+    }
 }
 
 impl<T> Default for Store<T> {
@@ -65,15 +74,25 @@ impl<T> Default for Store<T> {
 
 impl<T> Store<T> {
     /// Adds an object and gives its handle. A store holds at most 2³² − 1 objects.
-    pub fn add(&mut self, name: impl Into<String>, item: T) -> Handle<T> {
+    pub fn add(&mut self, name: impl Into<String>, item: impl Into<Arc<T>>) -> Handle<T> {
         let index = self.items.len() as u32;
-        self.items.push((name.into(), item));
+        self.items.push((name.into(), item.into()));
         Handle { index, kind: PhantomData }
     }
 
     /// Name of an object.
     pub fn name(&self, handle: Handle<T>) -> &str {
         &self.items[handle.index()].0
+    }
+
+    /// An object, to keep.
+    pub fn shared(&self, handle: Handle<T>) -> Arc<T> {
+        self.items[handle.index()].1.clone()
+    }
+
+    /// The objects alone.
+    pub fn into_items(self) -> impl Iterator<Item = Arc<T>> {
+        self.items.into_iter().map(|(_, item)| item)
     }
 
     /// Number of objects.
@@ -91,7 +110,7 @@ impl<T> Store<T> {
         self.items
             .iter()
             .enumerate()
-            .map(|(i, (name, item))| (Handle { index: i as u32, kind: PhantomData }, name.as_str(), item))
+            .map(|(i, (name, item))| (Handle { index: i as u32, kind: PhantomData }, name.as_str(), &**item))
     }
 }
 
@@ -102,8 +121,8 @@ impl<T> Index<Handle<T>> for Store<T> {
     }
 }
 
-impl<T> IndexMut<Handle<T>> for Store<T> {
+impl<T: Clone> IndexMut<Handle<T>> for Store<T> {
     fn index_mut(&mut self, handle: Handle<T>) -> &mut T {
-        &mut self.items[handle.index()].1
+        Arc::make_mut(&mut self.items[handle.index()].1)
     }
 }

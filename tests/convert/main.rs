@@ -21,6 +21,7 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The first thing in which two scenes differ, names and what has no meaning aside.
 fn difference(a: &Scene, b: &Scene) -> Option<String> {
@@ -164,13 +165,13 @@ pub fn same_again(scene: &Scene, name: &str) -> Scene {
 struct Memory;
 
 impl Assets for Memory {
-    fn image(&mut self, path: &Path) -> Result<Image> {
+    fn image(&mut self, path: &Path) -> Result<Arc<Image>> {
         let level = path.to_string_lossy().len();
         let texels = match path.extension().is_some_and(|extension| extension == "exr") {
             true => Texels::RgbaF32(vec![[0.1 * level as f32, 2.5, 0.0, 1.0]; 2]),
             false => Texels::Rgba8(vec![[level as u8, 2, 3, 255], [0, 255, 9, 255]]),
         };
-        Ok(Image { width: 2, height: 1, texels })
+        Ok(Arc::new(Image { width: 2, height: 1, texels }))
     }
 
     fn mesh(&mut self, path: &Path) -> Result<Mesh> {

@@ -9,6 +9,7 @@ use dapple::{Error, Result};
 use glam::{DMat3, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 use std::path::Path;
+use std::sync::Arc;
 
 const WIDTH: usize = 64;
 const HEIGHT: usize = 32;
@@ -17,9 +18,9 @@ const HEIGHT: usize = 32;
 struct Files(String);
 
 impl Assets for Files {
-    fn image(&mut self, _: &Path) -> Result<Image> {
+    fn image(&mut self, _: &Path) -> Result<Arc<Image>> {
         let texels = Texels::RgbaF32((1..=9).map(|i| [i as f32, i as f32, i as f32, 1.0]).collect());
-        Ok(Image { width: 3, height: 3, texels })
+        Ok(Arc::new(Image { width: 3, height: 3, texels }))
     }
 
     fn mesh(&mut self, _: &Path) -> Result<Mesh> {

@@ -14,16 +14,17 @@ use dapple::{Error, Result};
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Files in memory; names with `missing` in them are not there.
 struct Memory(BTreeMap<&'static str, String>);
 
 impl Assets for Memory {
-    fn image(&mut self, path: &Path) -> Result<Image> {
+    fn image(&mut self, path: &Path) -> Result<Arc<Image>> {
         match path.extension().is_some_and(|ext| ext == "png") {
             true => {
                 let width = if path.display().to_string().contains("wide") { 2 } else { 1 };
-                Ok(Image { width, height: 1, texels: Texels::Rgba8(vec![[0; 4]; width as usize]) })
+                Ok(Arc::new(Image { width, height: 1, texels: Texels::Rgba8(vec![[0; 4]; width as usize]) }))
             }
             false => Err(Error::scene("the picture ends too early").at(path, 7, 0)),
         }

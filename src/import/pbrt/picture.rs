@@ -11,6 +11,7 @@ use crate::scene::{
 };
 use crate::{Error, Result};
 use std::path::Path;
+use std::sync::Arc;
 
 /// How the integers of a picture are meant.
 #[derive(Debug, Clone, Copy)]
@@ -119,7 +120,7 @@ impl Reader<'_> {
         self.need_file(spot, path)?;
         let mut image = self.assets.image(path).map_err(|error| spot.locate(error))?;
         if let Some(gamma) = gamma {
-            image = without_gamma(image, gamma);
+            image = without_gamma(Arc::unwrap_or_clone(image), gamma).into();
         }
         let transparent = match &image.texels {
             Texels::Rgba8(texels) => texels.iter().any(|texel| texel[3] != u8::MAX),

@@ -16,7 +16,7 @@ pub(super) use texels::{Format, Reader};
 use crate::Result;
 use crate::scene::{Handle, Image};
 use pyramid::halved;
-use std::borrow::Cow;
+use std::sync::Arc;
 
 /// The size of a picture of half the width and height, rounded up.
 pub(super) fn half_size(size: [u32; 2]) -> [u32; 2] {
@@ -95,9 +95,9 @@ impl Atlas {
     ///
     /// # Errors
     /// Those of `write`.
-    pub fn fill<'a>(
+    pub fn fill(
         &self,
-        mut picture: impl FnMut(Handle<Image>) -> Cow<'a, Image>,
+        mut picture: impl FnMut(Handle<Image>) -> Arc<Image>,
         mut write: impl FnMut(usize, &[[u32; 4]]) -> Result<()>,
     ) -> Result<()> {
         let mut last = vec![0; self.pages.len()];

@@ -50,7 +50,7 @@ fn filled(atlas: &Atlas, scene: &Scene) -> Vec<[u32; 4]> {
     let mut words = vec![None; atlas.words()];
     let give = |handle| {
         *asked.entry(handle).or_insert(0) += 1;
-        Cow::Borrowed(&scene.images[handle])
+        scene.images.shared(handle)
     };
     let write = |first: usize, page: &[[u32; 4]]| {
         for (word, from) in words[first..][..page.len()].iter_mut().zip(page) {
@@ -115,6 +115,6 @@ fn what_cannot_be_written_ends_the_work() {
     let mut layout = Layout::default();
     layout.place(&scene, &texture(handle, ColorSpace::Linear), true).unwrap();
     let failed = |_, _: &[_]| Err(crate::Error::device("full"));
-    assert!(layout.finish().fill(|handle| Cow::Borrowed(&scene.images[handle]), failed).is_err());
+    assert!(layout.finish().fill(|handle| scene.images.shared(handle), failed).is_err());
     assert_eq!(Atlas::default().words(), 0);
 }

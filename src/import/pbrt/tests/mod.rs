@@ -14,6 +14,7 @@ use crate::{Error, Result};
 use glam::{Affine3A, Vec2, Vec3};
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Files in memory. Pictures end in `.png` (8 bits) or `.exr` (floats), meshes in `.ply`, lenses in `.dat`.
 #[derive(Default)]
@@ -22,18 +23,18 @@ struct Memory {
 }
 
 impl Assets for Memory {
-    fn image(&mut self, path: &Path) -> Result<Image> {
+    fn image(&mut self, path: &Path) -> Result<Arc<Image>> {
         if path.ends_with("two.png") {
             // Black above white, and in the middle grey
             let texels = Texels::Rgba8(vec![[0, 0, 0, 255], [128, 128, 128, 255], [255, 255, 255, 255]]);
-            return Ok(Image { width: 1, height: 3, texels });
+            return Ok(Arc::new(Image { width: 1, height: 3, texels }));
         }
         let texels = match path.extension().and_then(|ext| ext.to_str()) {
             Some("png") => Texels::Rgba8(vec![[255; 4]]),
             Some("exr") => Texels::RgbaF32(vec![[1.0, 1.0, 1.0, 0.5]]),
             _ => return Err(Error::scene("not a picture")),
         };
-        Ok(Image { width: 1, height: 1, texels })
+        Ok(Arc::new(Image { width: 1, height: 1, texels }))
     }
 
     fn mesh(&mut self, _: &Path) -> Result<Mesh> {

@@ -7,6 +7,7 @@ use crate::{Error, Result};
 use glam::{Affine3A, Vec3};
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Files in memory. Pictures end in `.png` (8 bits) or `.exr` (floats), meshes in `.obj`.
 #[derive(Default)]
@@ -23,14 +24,14 @@ impl Memory {
 }
 
 impl Assets for Memory {
-    fn image(&mut self, path: &Path) -> Result<Image> {
+    fn image(&mut self, path: &Path) -> Result<Arc<Image>> {
         self.loaded.push(path.display().to_string());
         let texels = match path.extension().and_then(|ext| ext.to_str()) {
             Some("png") => Texels::Rgba8(vec![[255; 4]]),
             Some("exr") => Texels::RgbaF32(vec![[1.0; 4]]),
             _ => return Err(Error::scene("not a picture")),
         };
-        Ok(Image { width: 1, height: 1, texels })
+        Ok(Arc::new(Image { width: 1, height: 1, texels }))
     }
 
     fn mesh(&mut self, path: &Path) -> Result<Mesh> {
