@@ -3,24 +3,22 @@
 //! What is placed once goes into one tree in world space (the soup); a mesh that is placed several times, or moves, gets a
 //! tree of its own. A tree over instances stands above them, unless the soup is all there is.
 
-use super::bounds::{Bounds, bounds_of, transformed, triangle_bounds};
+use super::bounds::{Bounds, bounds_of, transformed};
 use super::bvh::{self, Quality};
 use super::motion::{Motion, bounds_over_time};
 use super::places::{check_sizes, shape_frame};
 use super::shapes;
 use super::triangles::{Extras, mirrors, push_triangles};
 use super::wide::Leaves;
-use super::{Prepared, corners, rows};
+use super::{Prepared, Trees, corners, rows};
 use crate::layout::{
     self, INSTANCE_DEFAULT_UV, INSTANCE_DISK, INSTANCE_MESH, INSTANCE_PATCH, INSTANCE_SOUP, INSTANCE_SPHERE,
-    INSTANCE_TRIANGLE_LIGHTS, Instance, LEAF, LEAF_FIRST_MASK, LEAF_INSTANCE, NONE, Record, Triangle,
+    INSTANCE_TRIANGLE_LIGHTS, Instance, LEAF, LEAF_INSTANCE, NONE, Record, Triangle,
 };
 use crate::scene::{Handle, Mesh, Scene, ShapeKind};
 use crate::{Error, Result};
 use glam::Affine3A;
-
-/// Most triangles a leaf holds.
-const TRIANGLES_A_LEAF: u32 = 4;
+use std::sync::Arc;
 
 /// Where a thing that may shine went: for the table of lights.
 pub(super) struct Placed {
@@ -56,6 +54,7 @@ struct MeshTree {
 /// What has been placed so far.
 struct Placing<'a> {
     scene: &'a Scene,
+    trees: &'a mut Trees,
     placed: Vec<Placed>,
     /// Triangles in world space.
     soup: Vec<Triangle>,
@@ -68,13 +67,15 @@ struct Placing<'a> {
 }
 
 /// Fills tree, faces, vertices, instances, motions, root, bounds.
-pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> {
+pub(super) fn prepare(scene: &Scene, trees: &mut Trees, out: &mut Prepared) -> Result<Vec<Placed>> {
+    trees.begin();
     let mut uses = vec![0_u32; scene.meshes.len()];
     for instance in &scene.instances {
         uses[instance.mesh.index()] += 1;
     }
     let mut placing = Placing {
         scene,
+        trees,
         placed: Vec::new(),
         soup: Vec::new(),
         tops: Vec::new(),
@@ -84,13 +85,14 @@ pub(super) fn prepare(scene: &Scene, out: &mut Prepared) -> Result<Vec<Placed>> 
     for i in 0..scene.shapes.len() {
         placing.shape(i, out)?;
     }
-    let mut trees: Vec<Option<MeshTree>> = vec![None; scene.meshes.len()];
+    let mut mesh_trees: Vec<Option<MeshTree>> = vec![None; scene.meshes.len()];
     for (i, instance) in scene.instances.iter().enumerate() {
         let mesh = instance.mesh.index();
-        placing.mesh(i, uses[mesh] == 1, &mut trees[mesh], out)?;
+        placing.mesh(i, uses[mesh] == 1, &mut mesh_trees[mesh], out)?;
     }
-    let Placing { placed, soup, tops, motions, deepest, .. } = placing;
-    build_top(soup, tops, deepest, out)?;
+    let Placing { placed, soup, tops, motions, deepest, trees, .. } = placing;
+    build_top(soup, tops, deepest, trees, out)?;
+    out.bvh_seconds.0 = trees.seconds();
     push_motions(scene, motions, out)?;
     corners::put_behind_faces(out);
     shapes::place_words(out);
@@ -113,7 +115,7 @@ impl Placing<'_> {
             let mesh = Mesh::square();
             let extras = Extras::of(self.scene, &mesh, [shape.material]);
             if motion.is_some() {
-                let tree = tree_of(&mesh, &extras, out)?;
+                let tree = tree_of(&mesh, &extras, self.trees, out)?;
                 self.stand(instance, &tree, out);
                 let place = |map: &Affine3A| transformed(&tree.bounds, map);
                 bounds_over_time(motion.as_ref(), &frame, &map, &tree.bounds, place)
@@ -158,7 +160,7 @@ impl Placing<'_> {
         } else {
             let tree = match tree {
                 Some(tree) => *tree,
-                None => *tree.insert(mesh_tree(self.scene, instance.mesh, out)?),
+                None => *tree.insert(mesh_tree(self.scene, instance.mesh, self.trees, out)?),
             };
             self.stand(index, &tree, out);
             let place = |map: &Affine3A| transformed(&tree.bounds, map);
@@ -232,19 +234,19 @@ fn push_motions(scene: &Scene, motions: Vec<(u32, layout::Motion)>, out: &mut Pr
     Ok(())
 }
 
-fn mesh_tree(scene: &Scene, handle: Handle<Mesh>, out: &mut Prepared) -> Result<MeshTree> {
+fn mesh_tree(scene: &Scene, handle: Handle<Mesh>, trees: &mut Trees, out: &mut Prepared) -> Result<MeshTree> {
     let mesh = &scene.meshes[handle];
     let instances = scene.instances.iter().filter(|instance| instance.mesh == handle);
     let extras = Extras::of(scene, mesh, instances.map(|instance| instance.material));
-    tree_of(mesh, &extras, out)
+    tree_of(mesh, &extras, trees, out)
 }
 
 /// The tree of a mesh in object space.
-fn tree_of(mesh: &Mesh, extras: &Extras, out: &mut Prepared) -> Result<MeshTree> {
+fn tree_of(mesh: &Mesh, extras: &Extras, trees: &mut Trees, out: &mut Prepared) -> Result<MeshTree> {
     let mut triangles = Vec::new();
     let first_face = push_triangles(mesh, &Affine3A::IDENTITY, None, extras, out, &mut triangles);
     let bounds = bounds_of(&triangles);
-    let (root, depth) = out.push_tree(triangles)?;
+    let (root, depth) = out.push_tree(triangles, trees)?;
     Ok(MeshTree { root, depth, bounds, first_face })
 }
 
@@ -253,13 +255,14 @@ fn build_top(
     soup: Vec<Triangle>,
     tops: Vec<(u32, Bounds)>,
     mut deepest: u32,
+    trees: &mut Trees,
     out: &mut Prepared,
 ) -> Result<()> {
     let soup_bounds = bounds_of(&soup);
     let soup_root = if soup.is_empty() {
         None
     } else {
-        let (root, depth) = out.push_tree(soup)?;
+        let (root, depth) = out.push_tree(soup, trees)?;
         deepest = deepest.max(depth);
         Some(root)
     };
@@ -278,7 +281,7 @@ fn build_top(
     out.features.patches = uses(INSTANCE_PATCH);
     out.features.instances = !tops.is_empty();
     let Some(root) = soup_root.filter(|_| tops.is_empty()) else {
-        return build_instance_tree(tops, soup_root, soup_bounds, deepest, out);
+        return build_instance_tree(tops, soup_root, soup_bounds, deepest, trees, out);
     };
     out.root = root;
     out.stack_entries = stack_entries(deepest, None);
@@ -290,6 +293,7 @@ fn build_instance_tree(
     soup_root: Option<u32>,
     soup_bounds: Bounds,
     deepest: u32,
+    trees: &mut Trees,
     out: &mut Prepared,
 ) -> Result<()> {
     if let Some(root) = soup_root {
@@ -297,17 +301,21 @@ fn build_instance_tree(
         out.instances[index as usize].root = root;
         tops.push((index, soup_bounds));
     }
-    let bounds = tops.iter().map(|(_, bounds)| *bounds).collect();
+    let bounds: Vec<Bounds> = tops.iter().map(|(_, bounds)| *bounds).collect();
+    let instances: Vec<u32> = tops.iter().map(|(instance, _)| *instance).collect();
     let leaves = Leaves {
         first_item: out.first_item(tops.len())?,
         mark: LEAF | LEAF_INSTANCE,
-        item: &|i| [[tops[i as usize].0, 0, 0, 0], [0; 4], [0; 4]],
+        item: &|i| [[instances[i as usize], 0, 0, 0], [0; 4], [0; 4]],
     };
-    let mut tree = bvh::build(bounds, 1, Quality::High, &leaves);
+    let corners: Vec<[f32; 3]> = bounds.iter().flat_map(|b| [b.min.to_array(), b.max.to_array()]).collect();
+    let key =
+        [&leaves.first_item.to_le_bytes(), bytemuck::cast_slice(&instances), bytemuck::cast_slice(&corners)];
+    let tree = trees.tree(&key, || bvh::build(bounds, 1, Quality::High, &leaves));
     out.stack_entries = stack_entries(tree.depth, Some(deepest));
     out.root = tree.root;
     out.node_count += tree.nodes;
-    out.tree.append(&mut tree.items);
+    out.tree.append(&mut Arc::unwrap_or_clone(tree).items);
     check_stack(out.stack_entries)
 }
 
@@ -350,37 +358,6 @@ impl Prepared {
             flags: 0,
         });
         self.instances.len() as u32 - 1
-    }
-
-    /// Where the tree of some more primitives begins.
-    fn first_item(&self, primitives: usize) -> Result<u32> {
-        let first = self.tree.len();
-        // A tree has fewer nodes than primitives
-        if first + 2 * primitives > LEAF_FIRST_MASK as usize {
-            let most = LEAF_FIRST_MASK / 2;
-            return Err(
-                Error::scene(format!("more than {most} triangles and instances")).help("use instances")
-            );
-        }
-        Ok(first as u32)
-    }
-
-    /// Builds the tree of some triangles. Gives root and depth.
-    fn push_tree(&mut self, triangles: Vec<Triangle>) -> Result<(u32, u32)> {
-        let leaves = Leaves {
-            first_item: self.first_item(triangles.len())?,
-            mark: LEAF,
-            item: &|i| bytemuck::cast(triangles[i as usize]),
-        };
-        let start = std::time::Instant::now();
-        let bounds = triangles.iter().map(triangle_bounds).collect();
-        let mut tree = bvh::build(bounds, TRIANGLES_A_LEAF, Quality::Default, &leaves);
-        self.bvh_seconds.0 += start.elapsed().as_secs_f64();
-        self.triangle_count += triangles.len();
-        self.node_count += tree.nodes;
-        self.tree.append(&mut tree.items);
-        self.bvh_cost = self.bvh_cost.max(tree.cost);
-        Ok((tree.root, tree.depth))
     }
 }
 

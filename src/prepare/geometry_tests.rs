@@ -1,9 +1,9 @@
-//! The stack that `prepare` promises is enough for every way through the trees.
+//! The stack that `prepare` promises is enough for every way through the trees, and an edit builds those again that it touches.
 
 use super::super::wide::child;
-use super::super::{Prepared, prepare};
+use super::super::{Prepared, Trees, prepare, prepare_again};
 use crate::layout::{LEAF, LEAF_FIRST_MASK, LEAF_INSTANCE, NONE, Node};
-use crate::scene::{Instance, Material, Mesh, Scene, Surface, Value};
+use crate::scene::{Environment, Instance, Material, Mesh, Scene, Surface, Value};
 use glam::{Affine3A, Vec3};
 use proptest::prelude::*;
 
@@ -70,4 +70,28 @@ proptest! {
         let most = written(&prepared, prepared.root, 1);
         prop_assert!(most <= prepared.stack_entries, "{most} entries, {} promised", prepared.stack_entries);
     }
+}
+
+#[test]
+fn an_edit_builds_again_only_the_trees_that_it_touches() {
+    let mut trees = Trees::kept();
+    let mut before = scene(50, 3, true);
+    // The shared mesh, the soup, and the tree over instances
+    let mut built = |scene: &Scene| {
+        let prepared = prepare_again(scene, &mut trees).unwrap();
+        assert_eq!(prepared, prepare(scene).unwrap());
+        trees.built()
+    };
+    assert_eq!(built(&before), 3);
+    assert_eq!(built(&before), 0);
+    before.camera.position.x += 1.0;
+    let grey = before.instances[0].material;
+    before.materials[grey].surface = Surface::Diffuse { color: Value::Constant(Vec3::splat(0.2)) };
+    before.environment = Some(Environment::new(Value::Constant(Vec3::ONE)));
+    assert_eq!(built(&before), 0);
+    before.instances[0].world_from_object.translation.y += 1.0;
+    assert_eq!(built(&before), 1, "that over instances");
+    let shared = before.instances[0].mesh;
+    before.meshes[shared].positions[0].x -= 0.1;
+    assert_eq!(built(&before), 2, "its own and that over instances");
 }

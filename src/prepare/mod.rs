@@ -25,6 +25,7 @@ mod shape_lights;
 mod shapes;
 mod tangents;
 mod textures;
+mod trees;
 mod triangles;
 mod units;
 mod variant;
@@ -35,6 +36,7 @@ pub use bounds::Bounds;
 pub use displace::{displace, displacing};
 pub(crate) use environment::rows as environment_rows;
 pub use textures::{PreparedTextures, prepare_textures};
+pub use trees::Trees;
 pub use variant::{Stage, defines, stack_size};
 pub use wide::{Leaves, Tree};
 
@@ -219,6 +221,15 @@ pub struct Features {
 ///
 /// When the scene is too large for 32-bit floats or for the sizes that the kernels count in.
 pub fn prepare(scene: &Scene) -> Result<Prepared> {
+    prepare_again(scene, &mut Trees::default())
+}
+
+/// The same, with the trees that the scene before had.
+///
+/// # Errors
+///
+/// As [`prepare`].
+pub fn prepare_again(scene: &Scene, trees: &mut Trees) -> Result<Prepared> {
     let mut out = Prepared {
         root: crate::layout::NONE,
         environment_texture: crate::layout::NONE,
@@ -229,7 +240,7 @@ pub fn prepare(scene: &Scene) -> Result<Prepared> {
     let textures = textures::prepare(scene, &mut out)?;
     materials::prepare(scene, &textures, &mut out)?;
     details::prepare(scene, &textures, &mut out);
-    let placed = geometry::prepare(scene, &mut out)?;
+    let placed = geometry::prepare(scene, trees, &mut out)?;
     let receivers = lights::receivers(scene, &placed);
     let lamps = lights::prepare(scene, &textures, placed, &receivers, &mut out);
     environment::prepare(scene, &textures, &mut out);
