@@ -92,7 +92,7 @@ pub(super) fn prepare(scene: &Scene, trees: &mut Trees, out: &mut Prepared) -> R
     }
     let Placing { placed, soup, tops, motions, deepest, trees, .. } = placing;
     build_top(soup, tops, deepest, trees, out)?;
-    out.bvh_seconds.0 = trees.seconds();
+    out.bvh_seconds.0 = trees.end();
     push_motions(scene, motions, out)?;
     corners::put_behind_faces(out);
     shapes::place_words(out);

@@ -19,6 +19,8 @@ pub struct Trees {
     known: Option<HashMap<blake3::Hash, Arc<Tree>>>,
     /// Those that the scene has which is being prepared.
     used: HashMap<blake3::Hash, Arc<Tree>>,
+    /// The last scene was prepared to its end.
+    whole: bool,
     built: u32,
     seconds: f64,
 }
@@ -29,12 +31,21 @@ impl Trees {
         Self { known: Some(HashMap::new()), ..Self::default() }
     }
 
-    /// Begins a scene: what the one before did not use is forgotten.
+    /// Begins a scene: what the last whole one did not use is forgotten.
     pub(super) fn begin(&mut self) {
         (self.built, self.seconds) = (0, 0.0);
         if let Some(known) = &mut self.known {
-            *known = std::mem::take(&mut self.used);
+            if std::mem::take(&mut self.whole) {
+                known.clear();
+            }
+            known.extend(self.used.drain());
         }
+    }
+
+    /// Ends it. Gives the seconds that building took.
+    pub(super) fn end(&mut self) -> f64 {
+        self.whole = true;
+        self.seconds
     }
 
     /// A tree that depends on nothing but the bytes of `key`.
@@ -64,11 +75,6 @@ impl Trees {
     /// How many were built for the last scene.
     pub fn built(&self) -> u32 {
         self.built
-    }
-
-    /// The seconds that it took.
-    pub(super) fn seconds(&self) -> f64 {
-        self.seconds
     }
 }
 
@@ -112,6 +118,12 @@ mod tests {
     use super::*;
 
     fn ask(trees: &mut Trees, keys: &[&[u8]]) -> u32 {
+        let built = ask_and_fail(trees, keys);
+        trees.end();
+        built
+    }
+
+    fn ask_and_fail(trees: &mut Trees, keys: &[&[u8]]) -> u32 {
         trees.begin();
         for (key, root) in keys.iter().zip(0..) {
             assert_eq!(trees.tree(&[key], || Tree { root, ..Tree::default() }).root, root);
@@ -129,6 +141,15 @@ mod tests {
         assert_eq!(trees.known.as_ref().map(HashMap::len), Some(2));
         assert_eq!(ask(&mut trees, &[b"a", b"c"]), 1);
         assert_eq!(ask(&mut trees, &[b"a", b"b"]), 1);
+    }
+
+    #[test]
+    fn a_scene_that_fails_forgets_nothing() {
+        let mut trees = Trees::kept();
+        assert_eq!(ask(&mut trees, &[b"a", b"b"]), 2);
+        assert_eq!(ask_and_fail(&mut trees, &[b"x", b"y", b"c"]), 3);
+        assert_eq!(ask_and_fail(&mut trees, &[]), 0);
+        assert_eq!(ask(&mut trees, &[b"a", b"b", b"c"]), 0);
     }
 
     #[test]

@@ -5,24 +5,27 @@ mod camera;
 mod evaluate;
 mod frame;
 mod kernels;
+mod open;
 pub mod plan;
 mod resident;
 mod slicing;
+mod uploads;
 mod wave;
 
 pub use accumulate::Accumulation;
 pub use evaluate::{Evaluator, displace};
 pub use kernels::{Kernels, key};
+pub use open::{Kept, Opened};
 pub use resident::Resident;
 pub use slicing::Slicing;
+pub use uploads::Uploads;
 
 use crate::Result;
 use crate::film::{self, Film};
 use crate::gpu::{DeviceType, Gpu};
 use crate::layout::{Backend, Frame};
-use crate::prepare::{self, Prepared, Stage};
+use crate::prepare::{Prepared, Stage};
 use crate::scene::Scene;
-use crate::shader::Compiler;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -125,19 +128,6 @@ fn threads_of(gpu: &Gpu) -> u32 {
 }
 
 impl Renderer {
-    /// Prepares a scene, compiles its kernels and puts it on the device: all the way from [`Scene`] in one step. It is used up, so that
-    /// host and device do not both hold its pictures.
-    ///
-    /// # Errors
-    ///
-    /// As [`prepare::prepare`], [`Kernels::new`] and [`Self::new`].
-    pub fn open(gpu: Arc<Gpu>, compiler: &mut Compiler, mut scene: Scene, options: Options) -> Result<Self> {
-        displace(&gpu, compiler, &mut scene, options.backend)?;
-        let prepared = prepare::prepare(&scene)?;
-        let kernels = Kernels::new(&gpu, compiler, &scene, &prepared, options.backend)?;
-        Self::new(gpu, kernels, scene, prepared, options.slicing)
-    }
-
     /// Puts a scene on the device, with the kernels that were made for it.
     ///
     /// # Errors
@@ -150,6 +140,17 @@ impl Renderer {
         prepared: Prepared,
         slicing: Slicing,
     ) -> Result<Self> {
+        Self::place(gpu, kernels, scene, prepared, slicing, &mut Uploads::default())
+    }
+
+    fn place(
+        gpu: Arc<Gpu>,
+        kernels: Kernels,
+        scene: Scene,
+        prepared: Prepared,
+        slicing: Slicing,
+        uploads: &mut Uploads,
+    ) -> Result<Self> {
         let frame = frame::of_scene(&scene, &prepared, threads_of(&gpu));
         let film_frame = film::Frame {
             width: scene.film.width,
@@ -159,7 +160,7 @@ impl Renderer {
             depth_exponent: prepared.depth_exponent,
             seed: scene.render.seed,
         };
-        let resident = Resident::upload(&gpu, prepared, scene.images)?;
+        let resident = Resident::upload(&gpu, prepared, scene.images, uploads)?;
         Ok(Self { gpu, kernels, resident, frame, film_frame, slicing })
     }
 

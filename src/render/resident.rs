@@ -1,5 +1,6 @@
 //! [`Prepared`] → [`Resident`]: the buffers of a scene on the device.
 
+use super::uploads::Uploads;
 use crate::Result;
 use crate::gpu::{Buffer, Gpu};
 use crate::prepare::{Atlas, Prepared};
@@ -24,16 +25,22 @@ pub struct Resident {
 }
 
 impl Resident {
-    /// Puts a prepared scene and its pictures on the device. Both are taken apart on the way, so that host and device do not both
+    /// Puts a prepared scene and its pictures on the device, but for what is there already. Both are taken apart on the way, so that host and device do not both
     /// hold them.
     ///
     /// # Errors
     /// When it is larger than the memory or the buffers of the device.
-    pub fn upload(gpu: &Gpu, prepared: Prepared, images: Store<Image>) -> Result<Self> {
+    pub fn upload(
+        gpu: &Gpu,
+        prepared: Prepared,
+        images: Store<Image>,
+        uploads: &mut Uploads,
+    ) -> Result<Self> {
+        uploads.begin();
         let mut buffers = Vec::new();
         let mut put = |name: &'static str, bytes: &[u8]| -> Result<()> {
             if !bytes.is_empty() {
-                buffers.push((name, gpu.upload(name, bytes)?));
+                buffers.push((name, uploads.put(gpu, name, bytes)?));
             }
             Ok(())
         };
@@ -58,10 +65,7 @@ impl Resident {
         put("lens", bytemuck::cast_slice(&prepared.lens.words))?;
         let atlas = prepared.atlas;
         if atlas.words() > 0 {
-            let empty = Arc::new(Image::EMPTY);
-            let mut images: Vec<_> = images.into_items().collect();
-            let take = |image: Handle<Image>| std::mem::replace(&mut images[image.index()], empty.clone());
-            buffers.push(("texels", upload_texels(gpu, &atlas, take)?));
+            buffers.push(("texels", uploads.put_texels(gpu, atlas, images)?));
         }
         Ok(Self { buffers })
     }
