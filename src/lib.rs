@@ -11,6 +11,7 @@
 //! | [`gpu`] | a Vulkan device: all `unsafe` code is there |
 //! | [`render`] | [`prepare::Prepared`] on a device → [`film::Film`], exact sums of samples |
 //! | [`film`] | [`film::Film`] → [`film::Picture`] → PNG or EXR |
+//! | [`live`] | a scene that is edited → a [`render::Renderer`] for each state of it |
 //! | [`diff`] | two pictures → how far they are apart |
 //!
 //! [`whole_file`] writes files, and [`layout`] is what host and kernels agree on. The whole way:
@@ -44,6 +45,7 @@ pub mod film;
 pub mod gpu;
 pub mod import;
 pub mod layout;
+pub mod live;
 pub mod prepare;
 pub mod render;
 pub mod scene;

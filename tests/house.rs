@@ -27,6 +27,7 @@ const RUST_ROOMS: &[(&str, &[&str])] = &[
     ("film", &["scene", "layout", "whole_file"]),
     ("diff", &["film", "import", "scene"]),
     ("render", &["prepare", "shader", "gpu", "film", "layout", "scene"]),
+    ("live", &["import", "render", "shader", "gpu", "scene", "film"]),
     // The program: its own modules, and the public items of the library as `dapple::`.
     ("main", &["cli"]),
     ("cli", &["cli"]),

@@ -8,6 +8,9 @@ use dapple::scene::Rect;
 use std::path::PathBuf;
 use std::time::Duration;
 
+mod live;
+pub use live::LiveArgs;
+
 /// A ray tracer written in GLSL compute shaders on Vulkan
 #[derive(Debug, Parser)]
 #[command(name = "dapple", disable_version_flag = true, arg_required_else_help = true, after_help = AFTER_HELP)]
@@ -28,6 +31,8 @@ const AFTER_HELP: &str = "Exit codes: 0 done, 1 the render failed, 2 bad usage o
 pub enum Command {
     /// Render a scene to a PNG or EXR file
     Render(Box<RenderArgs>),
+    /// Show a scene while it is edited: follows every change of the scene, its pictures and meshes, and of shaders
+    Live(Box<LiveArgs>),
     /// List the Vulkan devices of this machine, and the variables that choose drivers
     Devices(DevicesArgs),
     /// Read and prepare a scene, and print what is in it; needs no device

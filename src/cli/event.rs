@@ -61,6 +61,23 @@ pub enum Event {
         /// The command that renders the first pixel again that had a sample that was not finite.
         repeat: Option<String>,
     },
+    /// The first pixels of an edited scene are there.
+    Generation {
+        number: u64,
+        /// Since the edit; none when there was none.
+        latency_s: Option<f64>,
+        read_s: f64,
+        prepare_s: f64,
+        /// Of GLSL.
+        compile_s: f64,
+        /// Of the driver.
+        driver_s: f64,
+        upload_s: f64,
+        /// Trees that were built, kernels that were compiled, and bytes that were sent to the device.
+        trees: u32,
+        kernels: u32,
+        bytes: u64,
+    },
     /// A texture is baked.
     Baked {
         files: Vec<String>,

@@ -74,7 +74,7 @@ pub fn read(scene: &Path, args: &ReadArgs) -> Result<(Scene, Vec<Warning>)> {
 }
 
 /// With `--strict` a warning is an error.
-fn strictly(strict: bool, warnings: &[Warning]) -> Result<()> {
+pub fn strictly(strict: bool, warnings: &[Warning]) -> Result<()> {
     match warnings.first().filter(|_| strict) {
         Some(Warning { place, message }) => Err(Error::scene(message)
             .help("leave out --strict to go on")
@@ -105,7 +105,12 @@ fn default_target(scene: &Path) -> Result<PathBuf> {
 }
 
 /// Changes size and window, and sees to it that the window is inside the picture.
-fn set_window(film: &mut Film, size: Option<Size>, crop: Option<Rect>, pixel: Option<Pixel>) -> Result<()> {
+pub fn set_window(
+    film: &mut Film,
+    size: Option<Size>,
+    crop: Option<Rect>,
+    pixel: Option<Pixel>,
+) -> Result<()> {
     if let Some(Size { width, height }) = size {
         (film.width, film.height) = (width, height);
     }

@@ -14,6 +14,7 @@ mod diff;
 mod event;
 mod job;
 mod lens;
+mod live;
 mod parse;
 mod pixel;
 mod render;
@@ -47,6 +48,7 @@ pub fn run() -> ExitCode {
     let (mut console, outcome) = match args.command {
         _ if args.version => with(Console::new(false, false), |c| Ok(version::run(c)?)),
         Some(Command::Render(args)) => with(Console::new(args.json, args.quiet), |c| render::run(&args, c)),
+        Some(Command::Live(args)) => with(Console::new(args.json, false), |c| Ok(live::run(&args, c)?)),
         Some(Command::Devices(args)) => {
             with(Console::new(args.json, false), |c| Ok(devices::run(args.json, c)?))
         }

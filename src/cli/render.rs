@@ -6,11 +6,10 @@ use super::event::{Event, Where};
 use super::job::Job;
 use super::stop::{Reason, Stop};
 use super::{Failure, pixel, repeat};
+use dapple::Result;
 use dapple::film::{self, Film};
 use dapple::gpu::{DeviceType, Gpu};
 use dapple::render::{Next, Options, Progress, Renderer};
-use dapple::{Error, Result};
-use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -37,7 +36,7 @@ pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
     announce(&job, &gpu, console);
     let scene = std::mem::take(&mut job.scene);
     let renderer = Renderer::open(gpu.clone(), &mut job.compiler, scene, Options::of(&gpu))
-        .map_err(|error| in_shaders(error, args.shaders.as_deref()))?;
+        .map_err(|error| job.compiler.sources().locate(error))?;
     let start = Instant::now();
     let mut watch = Watch::new(&job, &stop, console);
     let outcome = renderer.render(job.first_sample, job.spp, &mut |p| watch.step(p));
@@ -65,17 +64,6 @@ fn announce(job: &Job, gpu: &Gpu, console: &mut Console) {
         seed: job.seed,
         file: job.file(),
     });
-}
-
-/// Errors of the user's shaders name files in the folder of `--shaders`: adds the folder where the file is there.
-fn in_shaders(mut error: Error, folder: Option<&Path>) -> Error {
-    if let (Some(place), Some(folder)) = (&mut error.place, folder) {
-        let file = folder.join(&place.file);
-        if file.is_file() {
-            place.file = file;
-        }
-    }
-    error
 }
 
 /// Follows a render and tells it when to stop.

@@ -26,6 +26,22 @@ pub struct Picture {
     pub samples: Vec<u32>,
 }
 
+impl Picture {
+    /// Takes the values of pixels without samples from another picture, if it is one of the same window.
+    pub fn fill_gaps(&mut self, other: &Picture) {
+        let place = |frame: &Frame| (frame.width, frame.height, frame.window);
+        if place(&self.frame) != place(&other.frame) {
+            return;
+        }
+        for i in (0..self.samples.len()).filter(|&i| self.samples[i] == 0) {
+            (self.rgb[i], self.alpha[i]) = (other.rgb[i], other.alpha[i]);
+            (self.albedo[i], self.normal[i], self.depth[i]) =
+                (other.albedo[i], other.normal[i], other.depth[i]);
+            self.variance[i] = other.variance[i];
+        }
+    }
+}
+
 impl Film {
     /// Means and variances of the samples so far. A pixel without samples is 0 with infinite depth.
     pub fn resolve(&self) -> Picture {

@@ -54,26 +54,34 @@ pub trait Assets {
         path.exists()
     }
 
-    /// Reads the text of a scene file (at most 256 MiB of UTF-8).
+    /// Reads the text of a scene file.
     ///
     /// # Errors
-    /// When the file cannot be read, is too large or is not UTF-8.
+    /// Those of [`read_text`].
     fn text(&mut self, path: &Path) -> Result<String> {
-        let failed =
-            |error: std::io::Error| Error::scene(format!("cannot read the scene: {error}")).in_file(path);
-        let mut bytes = Vec::new();
-        File::open(path).map_err(failed)?.take(MAX_TEXT_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
-        if bytes.len() as u64 > MAX_TEXT_BYTES {
-            return Err(Error::scene("the scene is larger than 256 MiB")
-                .help("put large meshes into PLY files")
-                .in_file(path));
-        }
-        String::from_utf8(bytes).map_err(|error| {
-            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count() as u32;
-            Error::scene("the scene is not text in UTF-8").at(path, line, 0)
-        })
+        read_text(path)
     }
+}
+
+/// Reads the text of a scene file (at most 256 MiB of UTF-8).
+///
+/// # Errors
+/// When the file cannot be read, is too large or is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String> {
+    let failed =
+        |error: std::io::Error| Error::scene(format!("cannot read the scene: {error}")).in_file(path);
+    let mut bytes = Vec::new();
+    File::open(path).map_err(failed)?.take(MAX_TEXT_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MAX_TEXT_BYTES {
+        return Err(Error::scene("the scene is larger than 256 MiB")
+            .help("put large meshes into PLY files")
+            .in_file(path));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count() as u32;
+        Error::scene("the scene is not text in UTF-8").at(path, line, 0)
+    })
 }
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ mod volume;
 mod warning;
 
 pub use self::gltf::{Model, ModelCamera, ModelChoice, ModelContents, model_contents, read_gltf_mesh};
-pub use assets::Assets;
+pub use assets::{Assets, read_text};
 pub use image::read_image;
 pub use lens::{Spacing, read_lens};
 pub use mesh::read_mesh;

@@ -16,6 +16,9 @@ use std::time::Instant;
 /// Bytes of film that are kept on the device at once.
 const MOST_FILM_BYTES: u64 = 1 << 30;
 
+/// Most paths of the first slice of a picture that is wanted soon.
+const SOON_SLOTS: u32 = 1 << 13;
+
 /// A picture that grows slice by slice, while it is looked at. Two slices are under way at a time.
 ///
 /// `R` is `&Renderer`, or `Arc<Renderer>` for a picture that keeps its renderer alive.
@@ -86,6 +89,18 @@ impl<R: Deref<Target = Renderer>> Accumulation<R> {
             last: now,
             renderer,
         })
+    }
+
+    /// The same, with first passes and slices that are short, so that there soon is something to see.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn soon(renderer: R, first_sample: u32, spp: u32) -> Result<Self> {
+        let mut picture = Self::new(renderer, first_sample, spp)?;
+        picture.plan = picture.plan.clone().soon();
+        picture.slots = picture.slots.min(SOON_SLOTS);
+        Ok(picture)
     }
 
     /// Sends the next slice to the device and waits for the one before; none when all have been sent.

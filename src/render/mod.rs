@@ -22,7 +22,7 @@ pub use uploads::Uploads;
 
 use crate::Result;
 use crate::film::{self, Film};
-use crate::gpu::{DeviceType, Gpu};
+use crate::gpu::{DeviceInfo, DeviceType, Gpu};
 use crate::layout::{Backend, Frame};
 use crate::prepare::{Prepared, Stage};
 use crate::scene::Scene;
@@ -162,6 +162,11 @@ impl Renderer {
         };
         let resident = Resident::upload(&gpu, prepared, scene.images, uploads)?;
         Ok(Self { gpu, kernels, resident, frame, film_frame, slicing })
+    }
+
+    /// The device that it is on.
+    pub fn device(&self) -> &DeviceInfo {
+        self.gpu.info()
     }
 
     /// The kernels of the scene. Who holds a copy of them spares the next renderer that needs the same ones compiling them.

@@ -56,6 +56,8 @@ pub struct Plan {
     next_tile: u32,
     next_sample: u32,
     pass_samples: u32,
+    /// Samples of the next pass, while the picture is to be seen soon.
+    soon: Option<u32>,
 }
 
 impl Plan {
@@ -68,7 +70,13 @@ impl Plan {
             next_tile: 0,
             next_sample: first,
             pass_samples: 0,
+            soon: None,
         }
+    }
+
+    /// The same, with a first pass of one sample, and each pass after it as long as all before, until they are as long as they get.
+    pub fn soon(self) -> Self {
+        Self { soon: Some(1), ..self }
     }
 
     /// The next slice of at most about `slots` paths; none when the picture is done.
@@ -78,7 +86,9 @@ impl Plan {
         }
         let capacity = (slots / WORKGROUP).max(1);
         if self.next_tile == 0 {
-            self.pass_samples = pass_samples(capacity, self.tiles).min(self.end_sample - self.next_sample);
+            let most = self.soon.unwrap_or(u32::MAX).min(self.end_sample - self.next_sample);
+            self.pass_samples = pass_samples(capacity, self.tiles).min(most);
+            self.soon = self.soon.and_then(|now| now.checked_mul(2));
         }
         let band_end = (self.next_tile / self.band + 1).saturating_mul(self.band).min(self.tiles);
         let tiles = (capacity / self.pass_samples).max(1).min(band_end - self.next_tile);
@@ -127,9 +137,12 @@ mod tests {
         #[test]
         fn every_tile_and_sample_comes_once(
             tiles in 1..200_u32, band in 1..300_u32, first in 0..5_u32, spp in 1..70_u32,
-            slots in prop::collection::vec(1..40_000_u32, 1..5),
+            slots in prop::collection::vec(1..40_000_u32, 1..5), soon: bool,
         ) {
             let mut plan = Plan::new(tiles, band, first, spp);
+            if soon {
+                plan = plan.soon();
+            }
             let mut seen = vec![0; (tiles * spp) as usize];
             let mut turn = 0;
             while let Some(slice) = plan.next(slots[turn % slots.len()]) {
@@ -160,6 +173,15 @@ mod tests {
                 prop_assert!(slice.slots() <= groups * WORKGROUP);
             }
         }
+    }
+
+    #[test]
+    fn the_first_passes_are_short_when_they_are_wanted_soon() {
+        let mut plan = Plan::new(2, 2, 0, 100).soon();
+        let passes: Vec<u32> =
+            std::iter::from_fn(|| plan.next(WORKGROUP * 16)).map(|slice| slice.samples).collect();
+        assert_eq!(passes[..6], [1, 2, 4, 8, 8, 8]);
+        assert_eq!(passes.iter().sum::<u32>(), 100);
     }
 
     #[test]

@@ -24,6 +24,8 @@ const MAX_NAME_BYTES: usize = 200;
 pub struct Sources {
     virtual_files: BTreeMap<String, String>,
     folder: Option<PathBuf>,
+    /// The folder as the user named it.
+    named: PathBuf,
     embedded: bool,
 }
 
@@ -62,7 +64,7 @@ impl Sources {
         if !root.is_dir() {
             return Err(Error::scene("this is a file, but shaders are read from a folder").in_file(folder));
         }
-        Ok(Self { folder: Some(root), ..Self::embedded() })
+        Ok(Self { folder: Some(root), named: folder.to_path_buf(), ..Self::embedded() })
     }
 
     /// Only the given files: name and text.
@@ -90,6 +92,17 @@ impl Sources {
         check_name(&name)?;
         self.virtual_files.insert(name, text.into());
         Ok(())
+    }
+
+    /// An error in a file of the folder, with the path by which the user knows it.
+    pub fn locate(&self, mut error: Error) -> Error {
+        if let (Some(place), true) = (&mut error.place, self.folder.is_some()) {
+            let file = self.named.join(&place.file);
+            if file.is_file() {
+                place.file = file;
+            }
+        }
+        error
     }
 
     /// True when the file was handed in as text.

@@ -1,0 +1,132 @@
+//! `dapple live`.
+
+use super::args::LiveArgs;
+use super::console::Console;
+use super::event::{Event, Where};
+use super::job;
+use super::stop::Stop;
+use dapple::gpu::{DeviceChoice, DeviceType, Gpu, validation_from_environment};
+use dapple::live::{Generation, Live, Request, State};
+use dapple::shader::CacheOptions;
+use dapple::{Error, Result};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// How long a Ctrl-C may wait.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// Shows a scene until it is told to stop.
+pub fn run(args: &LiveArgs, console: &mut Console) -> Result<()> {
+    let stop = Stop::watch(None)?;
+    let gpu = Arc::new(Gpu::open(&DeviceChoice {
+        wanted: args.device.clone(),
+        require_gpu: args.require_gpu,
+        validation: validation_from_environment(),
+    })?);
+    if gpu.info().kind == DeviceType::Cpu {
+        console.note(&format!("rendering on the CPU: {}", gpu.info().name));
+    }
+    let live = Live::start(gpu, request(args), args.spp)?;
+    let mut told = Told::default();
+    while stop.reason(Duration::ZERO).is_none() {
+        let state = live.show().wait(PATIENCE, |state| told.is_behind(state));
+        told.tell(&state, console);
+    }
+    Ok(())
+}
+
+fn request(args: &LiveArgs) -> Request {
+    let (size, strict) = (args.size, args.read.strict);
+    Request {
+        scene: args.scene.clone(),
+        overrides: args.read.set.clone(),
+        choice: args.read.model.choice(),
+        shaders: args.shaders.clone(),
+        cache: CacheOptions::from_environment(),
+        adjust: Box::new(move |scene, warnings| {
+            job::strictly(strict, warnings)?;
+            job::set_window(&mut scene.film, size, None, None)
+        }),
+    }
+}
+
+/// What was said so far.
+#[derive(Default)]
+struct Told {
+    attempts: u64,
+    generation: u64,
+}
+
+impl Told {
+    fn is_behind(&self, state: &State) -> bool {
+        state.attempts != self.attempts
+            || state.shot.as_ref().is_some_and(|shot| shot.generation.number != self.generation)
+    }
+
+    fn tell(&mut self, state: &State, console: &mut Console) {
+        if state.attempts != self.attempts {
+            self.attempts = state.attempts;
+            if let Some(error) = &state.error {
+                tell_error(error, console);
+            }
+        }
+        if let Some(shot) = &state.shot
+            && shot.generation.number != self.generation
+        {
+            self.generation = shot.generation.number;
+            tell_generation(&shot.generation, state.latency, console);
+        }
+    }
+}
+
+fn tell_error(error: &Error, console: &mut Console) {
+    if console.json() {
+        return console.event(&Event::Error {
+            message: error.message.clone(),
+            help: error.help.clone(),
+            place: error.place.as_ref().map(Where::from),
+            repeat: None,
+        });
+    }
+    let place = error.place.as_ref().map_or_else(String::new, |place| format!("{place}: "));
+    let help = error.help.as_ref().map_or_else(String::new, |help| format!("; {help}"));
+    console.result(&format!("{place}error: {}{help}", error.message));
+}
+
+fn tell_generation(generation: &Generation, latency: Option<f64>, console: &mut Console) {
+    for warning in &generation.warnings {
+        if console.json() {
+            console.event(&Event::Warning {
+                message: warning.message.clone(),
+                place: Where::from(&warning.place),
+            });
+        } else {
+            console.result(&format!("{}: warning: {}", warning.place, warning.message));
+        }
+    }
+    let (number, opened) = (generation.number, &generation.opened);
+    if console.json() {
+        return console.event(&Event::Generation {
+            number,
+            latency_s: latency,
+            read_s: generation.read_seconds,
+            prepare_s: opened.displace_seconds + opened.prepare_seconds,
+            compile_s: opened.compile_seconds,
+            driver_s: opened.driver_seconds,
+            upload_s: opened.upload_seconds,
+            trees: opened.trees,
+            kernels: opened.kernels,
+            bytes: opened.bytes,
+        });
+    }
+    let ms = |seconds: f64| format!("{:.0} ms", 1e3 * seconds);
+    let after = latency.map_or_else(String::new, |latency| format!(" seen after {}", ms(latency)));
+    console.result(&format!(
+        "generation {number}{after}: read {}, prepared {}, kernels {} and {} in the driver, sent {}",
+        ms(generation.read_seconds),
+        ms(opened.displace_seconds + opened.prepare_seconds),
+        ms(opened.compile_seconds),
+        ms(opened.driver_seconds),
+        ms(opened.upload_seconds),
+    ));
+}

@@ -1,0 +1,94 @@
+//! The thread that waits for edits and makes generations of them.
+
+use super::painter::Order;
+use super::{Event, Show, Studio, Watch};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::time::{Duration, Instant};
+
+/// An edit is over when so long nothing more happened: to save a file takes several steps.
+const QUIET: Duration = Duration::from_millis(15);
+/// But no longer than so long after it began.
+const LONGEST: Duration = Duration::from_millis(250);
+
+/// What happened since the last attempt.
+#[derive(Default)]
+struct Happened {
+    edited: BTreeSet<PathBuf>,
+    looked: bool,
+    quit: bool,
+}
+
+/// Makes a generation, and another whenever something happened, until it is told to quit.
+pub(super) fn direct(
+    mut studio: Studio,
+    mut watch: Watch,
+    events: &Receiver<Event>,
+    painter: &Sender<Order>,
+    show: &Show,
+) {
+    let mut cause = None;
+    loop {
+        attempt(&mut studio, &mut watch, painter, show, cause.take());
+        loop {
+            let Ok(first) = events.recv() else { return };
+            let begun = Instant::now();
+            let mut happened = Happened::default();
+            happened.take(first, &mut studio);
+            while !happened.quit && begun.elapsed() < LONGEST {
+                let wait = if happened.edited.is_empty() { Duration::ZERO } else { QUIET };
+                match events.recv_timeout(wait) {
+                    Ok(event) => happened.take(event, &mut studio),
+                    Err(RecvTimeoutError::Timeout) => break,
+                    Err(RecvTimeoutError::Disconnected) => return,
+                }
+            }
+            if happened.quit {
+                return;
+            }
+            if happened.looked || studio.touched_by(&happened.edited) {
+                cause = Some(begun);
+                break;
+            }
+        }
+    }
+}
+
+impl Happened {
+    fn take(&mut self, event: Event, studio: &mut Studio) {
+        match event {
+            Event::Edited(paths) => self.edited.extend(paths),
+            Event::Look(camera) => {
+                studio.set_camera(camera);
+                self.looked = true;
+            }
+            Event::Quit => self.quit = true,
+        }
+    }
+}
+
+/// One transaction.
+fn attempt(
+    studio: &mut Studio,
+    watch: &mut Watch,
+    painter: &Sender<Order>,
+    show: &Show,
+    cause: Option<Instant>,
+) {
+    // A painter that is gone has nobody to paint for: the next event is to quit
+    let order = |order| _ = painter.send(order);
+    order(Order::Pause);
+    let outcome = studio.generation().map(Arc::new);
+    let (files, tree) = studio.watched();
+    let outcome = watch.follow(files, tree).and(outcome);
+    order(match &outcome {
+        Ok(generation) => Order::Paint(generation.clone(), cause),
+        Err(_) => Order::Resume,
+    });
+    show.change(|state| {
+        state.attempts += 1;
+        state.error = outcome.as_ref().err().cloned();
+    });
+}
