@@ -1,5 +1,6 @@
 //! Buffers in device memory.
 
+use super::census::Token;
 use super::device::{DeviceType, Gpu, Inner};
 use super::{Command, check, huge_pages, limits};
 use crate::layout::WORD_BYTES;
@@ -28,6 +29,7 @@ pub struct Buffer {
     place: Place,
     allocation: Mutex<Option<Allocation>>,
     inner: Arc<Inner>,
+    _counted: Token,
 }
 
 impl Gpu {
@@ -56,7 +58,9 @@ impl Gpu {
         let device = &self.inner.device;
         // SAFETY: the device is alive and `info` lives until the call returns.
         let raw = check(unsafe { device.create_buffer(&info, None) }, &format!("make buffer `{name}`"))?;
-        let buffer = Buffer { raw, bytes, place, allocation: Mutex::new(None), inner: self.inner.clone() };
+        let counted = self.inner.census.buffers.clone();
+        let inner = self.inner.clone();
+        let buffer = Buffer { raw, bytes, place, allocation: Mutex::new(None), inner, _counted: counted };
         // SAFETY: the buffer was just made on this device.
         let requirements = unsafe { device.get_buffer_memory_requirements(raw) };
         let location = match place {

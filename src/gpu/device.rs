@@ -1,5 +1,6 @@
 //! Choosing a device and opening it.
 
+use super::census::Census;
 use super::instance::{Instance, door, no_driver};
 use super::pipeline::Pipelines;
 use super::{check, limits};
@@ -89,6 +90,7 @@ pub(super) struct Inner {
     pub(super) on_device: AtomicU64,
     pub(super) allocated: AtomicU64,
     pub(super) allocated_peak: AtomicU64,
+    pub(super) census: Census,
 }
 
 /// All devices of this machine, in the order of the driver list; `validation` as in [`DeviceChoice`].
@@ -154,6 +156,7 @@ impl Gpu {
                 instance,
                 allocated: AtomicU64::new(0),
                 allocated_peak: AtomicU64::new(0),
+                census: Census::default(),
             }),
         })
     }

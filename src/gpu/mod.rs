@@ -4,6 +4,7 @@
 //! plain values: [`Gpu`], [`Buffer`], [`Pipeline`], [`Bindings`] and lists of [`Command`]s.
 
 mod buffer;
+mod census;
 mod command;
 mod device;
 mod huge_pages;
@@ -12,6 +13,7 @@ mod limits;
 mod pipeline;
 
 pub use buffer::{Buffer, Place};
+pub use census::Alive;
 pub use command::{Command, Ticket};
 pub use device::{DeviceChoice, DeviceInfo, DeviceType, Gpu, Limits, choose, devices};
 pub use instance::{late_messages, validation_from_environment};

@@ -1,5 +1,6 @@
 //! Compute pipelines and what is bound to them. All kernels share the descriptor set of [`crate::layout::BINDINGS`].
 
+use super::census::Token;
 use super::device::{Gpu, Inner};
 use super::{Buffer, Place, check, limits};
 use crate::layout::{BINDINGS, Backend, Binding, BindingKind, WORD_BYTES, WORKGROUP};
@@ -22,6 +23,7 @@ pub struct Layout {
 pub struct Pipeline {
     pub(super) raw: vk::Pipeline,
     pub(super) layout: Arc<Layout>,
+    _counted: Token,
 }
 
 /// Pipelines that are alive, by back end and hash of the kernel: drivers compile what they are given, as often as they are given it.
@@ -35,6 +37,7 @@ pub struct Bindings {
     // What is bound lives as long as the set.
     keep: Vec<Arc<Buffer>>,
     layout: Arc<Layout>,
+    _counted: Token,
 }
 
 /// The descriptors of a binding: number and type.
@@ -147,6 +150,7 @@ impl Gpu {
         confirm(&scan(spirv.words())?, layout.backend).map_err(|error| error.in_file(Path::new(name)))?;
         let device = &self.inner.device;
         let info = vk::ShaderModuleCreateInfo::default().code(spirv.words());
+        let _counted = self.inner.census.modules.clone();
         // SAFETY: the words are sound, because only glslang makes a `Spirv`; the module is destroyed below.
         let module =
             check(unsafe { device.create_shader_module(&info, None) }, &format!("load kernel `{name}`"))?;
@@ -164,7 +168,7 @@ impl Gpu {
         };
         let pipelines = check(made.map_err(|(_, code)| code), &format!("compile kernel `{name}`"))?;
         let raw = pipelines.first().copied().unwrap_or_default();
-        Ok(Arc::new(Pipeline { raw, layout: layout.clone() }))
+        Ok(Arc::new(Pipeline { raw, layout: layout.clone(), _counted: self.inner.census.pipelines.clone() }))
     }
 
     /// Makes a descriptor set. Each buffer is named by the table; what is not given is a dummy of one word.
@@ -201,6 +205,7 @@ impl Gpu {
             views: Vec::new(),
             layout: layout.clone(),
             keep: vec![dummy.clone()],
+            _counted: self.inner.census.bindings.clone(),
         };
         let sets = [layout.set];
         let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&sets);
