@@ -3,7 +3,6 @@
 use super::{Room, cache, gpu, wait, wait_for};
 use dapple::live::{Event, Generation};
 use dapple::render::Next;
-use std::sync::Arc;
 
 /// What an edit cost: trees, kernels that were compiled, and whether as much was sent as the texels are.
 fn cost(generation: &Generation) -> (u32, u32) {
@@ -45,9 +44,11 @@ fn a_file_of_the_shaders_compiles_the_kernels_again_that_include_it() {
     let room = Room::new();
     let mut studio = room.studio(&gpu(), cache());
     studio.generation().unwrap();
-    // A number that no other run has, so that nothing is found on disk
-    let mark = format!("\nconst float UNIQUE_{} = 1.0;\n", std::process::id());
+    let mut number = 0;
     let mut append = |name: &str| {
+        number += 1;
+        // A number that no other run has, so that nothing is found on disk
+        let mark = format!("\nconst float UNIQUE_{}_{number} = 1.0;\n", std::process::id());
         let text = std::fs::read_to_string(room.path("shaders").join(name)).unwrap();
         room.write(&format!("shaders/{name}"), &(text + &mark));
         let edited = [room.path("shaders").canonicalize().unwrap().join(name)].into();
@@ -56,7 +57,7 @@ fn a_file_of_the_shaders_compiles_the_kernels_again_that_include_it() {
     assert_eq!(append("material/diffuse.glsl"), (true, 1), "shade");
     assert_eq!(append("camera/thin_lens.glsl"), (true, 1), "camera");
     assert_eq!(append("geometry/traverse.glsl"), (true, 4), "intersect and shadow, each for long rays too");
-    assert!(append("material/sheen.glsl").0, "it is included, though nothing of it is used");
+    assert_eq!(append("base/math.glsl").1, 7, "all but that of the queues");
     let unknown = [room.path("shaders").canonicalize().unwrap().join("notes.txt")].into();
     assert!(!studio.touched_by(&unknown));
 }
@@ -95,7 +96,7 @@ fn an_edit_with_an_error_keeps_the_picture_and_names_the_place() {
     let bad = wait(&live, "an error", |state| state.error.is_some());
     let error = bad.error.unwrap();
     let place = error.place.clone().unwrap();
-    assert_eq!((place.file, place.line), (room.path("scene.toml"), 32), "{}", error.message);
+    assert_eq!((place.file, place.line), (room.path("scene.toml"), 31), "{}", error.message);
     assert_eq!(bad.generation.unwrap().number, 1);
     // A shader that does not compile, while the scene is wrong too, and both mended
     room.edit("scene.toml", "radius = -1", "radius = 1");
@@ -136,5 +137,4 @@ fn it_can_be_looked_at_from_elsewhere_and_back() {
     live.events().send(Event::Look(None)).unwrap();
     let back = wait_for(&live, 4).generation.unwrap();
     assert_eq!(back.camera.position.x, camera.position.x - 1.0);
-    assert!(Arc::strong_count(&back) >= 1);
 }
