@@ -4,10 +4,11 @@ use super::args::ConvertArgs;
 use super::console::Console;
 use super::devices::bytes_text;
 use super::job::read;
-use dapple::Result;
 use dapple::export::{Written, write_scene};
-use dapple::import::Warning;
+use dapple::import::{Warning, read_scene};
+use dapple::{Error, Result};
 use serde::Serialize;
+use std::path::Path;
 
 /// What was written.
 #[derive(Debug, Serialize)]
@@ -25,7 +26,8 @@ pub fn run(args: &ConvertArgs, console: &mut Console) -> Result<()> {
     if !args.json {
         warnings.iter().for_each(|warning| console.note(&format!("warning: {warning}")));
     }
-    let Written { files, bytes } = write_scene(&scene, &args.output, args.force)?;
+    let Written { files, bytes } =
+        write_scene(&scene, &args.output, args.force, &mut |path| read_back(path, &args.output))?;
     let report = Report {
         scene: args.output.display().to_string(),
         files: files.iter().map(|file| file.display().to_string()).collect(),
@@ -43,4 +45,13 @@ pub fn run(args: &ConvertArgs, console: &mut Console) -> Result<()> {
         console.note(&format!("wrote {}{beside}, {}", report.scene, bytes_text(bytes)));
     }
     Ok(())
+}
+
+/// Sees to it that what was written is a scene.
+fn read_back(written: &Path, output: &Path) -> Result<()> {
+    let Err(Error { message, help, .. }) = read_scene(written, &[]) else { return Ok(()) };
+    let help = help.map_or_else(String::new, |help| format!(" ({help})"));
+    Err(Error::output(format!("what would be written is no scene: {message}{help}"))
+        .help("nothing was written; change that in the scene that is converted, and please report it")
+        .in_file(output))
 }

@@ -31,12 +31,18 @@ use std::path::Path;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
 
 /// Writes a scene as the file `path`, whose name ends in `.toml`, and the meshes, pictures, lenses and textures in GLSL that it needs
-/// into the folder `NAME_files` beside it. The scene comes last, and whole or not at all. What is there already is replaced only with
-/// `replace`.
+/// into the folder `NAME_files` beside it. `check` gets the path of the scene before anything is moved to where it belongs, to read it back. What is
+/// there already is replaced only with `replace`; files of other names stay in the folder.
 ///
 /// # Errors
-/// A name without `.toml`, files that are there or cannot be written, and a scene with something that the language cannot say.
-pub fn write_scene(scene: &Scene, path: &Path, replace: bool) -> Result<Written> {
+/// A name without `.toml`, files that are there or cannot be written, a scene with something that the language cannot say, and the
+/// errors of `check`. Everything is then as before.
+pub fn write_scene(
+    scene: &Scene,
+    path: &Path,
+    replace: bool,
+    check: &mut dyn FnMut(&Path) -> Result<()>,
+) -> Result<Written> {
     let mut writer = Writer {
         scene,
         textures: names::unique(&scene.textures, "texture"),
@@ -46,7 +52,7 @@ pub fn write_scene(scene: &Scene, path: &Path, replace: bool) -> Result<Written>
         files: Files::beside(path, replace)?,
     };
     let document = writer.document().map_err(|error| error.in_file(path))?;
-    writer.files.finish(document.to_string().trim_start())
+    writer.files.finish(document.to_string().trim_start(), check)
 }
 
 /// A scene on its way to files.

@@ -1,36 +1,58 @@
 //! Names of objects, each once.
 
 use crate::scene::Store;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Names that are given.
+#[derive(Default)]
+pub(super) struct Names {
+    taken: BTreeSet<String>,
+    /// The first number that may be free, by what it is put behind.
+    next: BTreeMap<String, usize>,
+}
+
+impl Names {
+    /// Takes a name; false when it is taken.
+    pub fn take(&mut self, name: &str) -> bool {
+        self.taken.insert(name.to_owned())
+    }
+
+    /// Takes the first name of `named` that is free, with numbers from `first` on or from where `key` was the last time. Names count as the
+    /// same that are the same by `fold`.
+    pub fn next(
+        &mut self,
+        key: &str,
+        first: usize,
+        named: impl Fn(usize) -> String,
+        fold: impl Fn(&str) -> String,
+    ) -> String {
+        let mut number = self.next.get(key).map_or(first, |&next| next.max(first));
+        loop {
+            let name = named(number);
+            number += 1;
+            if self.taken.insert(fold(&name)) {
+                self.next.insert(key.to_owned(), number);
+                return name;
+            }
+        }
+    }
+}
 
 /// The names of the objects of a store: their own where nobody before has it, else with a number behind it. Objects without a name are
 /// called by what they are.
 pub(super) fn unique<T>(store: &Store<T>, noun: &str) -> Vec<String> {
-    let mut taken: BTreeSet<String> = store.iter().map(|(_, name, _)| name.to_owned()).collect();
+    let mut names = Names::default();
+    // Each keeps its own where it can, so that all of these are taken
+    store.iter().for_each(|(_, name, _)| _ = names.take(name));
     let mut given = BTreeSet::new();
-    let mut names = Vec::with_capacity(store.len());
-    for (handle, name, _) in store.iter() {
-        let own = !name.is_empty() && given.insert(name.to_owned());
-        names.push(if own {
-            name.to_owned()
-        } else {
-            let (stem, first) = if name.is_empty() { (noun, handle.index() + 1) } else { (name, 2) };
-            free(stem, first, &mut taken)
-        });
-    }
-    names
-}
-
-/// A name with the first number that makes it new.
-fn free(stem: &str, first: usize, taken: &mut BTreeSet<String>) -> String {
-    let mut number = first;
-    loop {
-        let name = format!("{stem} {number}");
-        if taken.insert(name.clone()) {
-            return name;
+    let unique = store.iter().map(|(handle, name, _)| {
+        if !name.is_empty() && given.insert(name) {
+            return name.to_owned();
         }
-        number += 1;
-    }
+        let (stem, first) = if name.is_empty() { (noun, handle.index() + 1) } else { (name, 2) };
+        names.next(stem, first, |number| format!("{stem} {number}"), str::to_owned)
+    });
+    unique.collect()
 }
 
 #[cfg(test)]

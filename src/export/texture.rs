@@ -116,7 +116,10 @@ impl Writer<'_> {
     fn glsl(&mut self, handle: Handle<Texture>, texture: &GlslTexture) -> Result<Keys> {
         let name = self.texture_name(handle).to_owned();
         let mut keys = Keys::of_kind("glsl");
-        keys.set("file", self.files.add(&name, "texture", "glsl", texture.source.as_bytes())?);
+        // What it includes is in it: lines that say where that was are of no more use
+        let source: String =
+            texture.source.split_inclusive('\n').filter(|line| !line.starts_with("#line ")).collect();
+        keys.set("file", self.files.add(&name, "texture", "glsl", source.as_bytes())?);
         if !texture.parameters.is_empty() {
             let mut parameters = Keys::new();
             for (name, value) in &texture.parameters {

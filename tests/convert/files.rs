@@ -80,9 +80,13 @@ fn pictures_are_read_back() {
         same_again(&all(texels), "a picture");
     }
     let folder = tempfile::tempdir().unwrap();
-    let error =
-        dapple::export::write_scene(&with_picture(Image::EMPTY), &folder.path().join("a.toml"), false)
-            .unwrap_err();
+    let error = dapple::export::write_scene(
+        &with_picture(Image::EMPTY),
+        &folder.path().join("a.toml"),
+        false,
+        &mut |_| Ok(()),
+    )
+    .unwrap_err();
     assert!(error.message.contains("the picture cannot be encoded"), "{error}");
 }
 

@@ -143,14 +143,14 @@ fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 pub fn same_again(scene: &Scene, name: &str) -> Scene {
     let [first, second] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let [a, b] = [&first, &second].map(|folder| folder.path().join("out.toml"));
-    write_scene(scene, &a, false).unwrap_or_else(|error| panic!("{name}: {error}"));
+    write_scene(scene, &a, false, &mut |_| Ok(())).unwrap_or_else(|error| panic!("{name}: {error}"));
     let (read, _) = read_scene(&a, &[]).unwrap_or_else(|error| {
         panic!("{name}: {error}\n{}", fs::read_to_string(&a).unwrap());
     });
     if let Some(what) = difference(scene, &read) {
         panic!("{name}: {what}");
     }
-    write_scene(&read, &b, false).unwrap();
+    write_scene(&read, &b, false, &mut |_| Ok(())).unwrap();
     let [before, after] = [&first, &second].map(|folder| contents(folder.path()));
     let text = |files: &BTreeMap<PathBuf, Vec<u8>>| {
         String::from_utf8_lossy(&files[Path::new("out.toml")]).into_owned()
@@ -274,7 +274,7 @@ fn what_is_there_is_kept_and_names_are_checked() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let scene = Scene::default();
-    let refused = |path: &Path| write_scene(&scene, path, false).unwrap_err().to_string();
+    let refused = |path: &Path| write_scene(&scene, path, false, &mut |_| Ok(())).unwrap_err().to_string();
     assert!(
         refused(&at("a.pbrt"))
             .contains("no scene can be written with the extension `pbrt`; end the name in .toml")
@@ -288,7 +288,7 @@ fn what_is_there_is_kept_and_names_are_checked() {
         )
     );
     assert_eq!(fs::read_to_string(at("a.toml")).unwrap(), "before");
-    let written = write_scene(&scene, &at("a.toml"), true).unwrap();
+    let written = write_scene(&scene, &at("a.toml"), true, &mut |_| Ok(())).unwrap();
     assert_eq!(written.files, [at("a.toml")]);
     assert_eq!(written.bytes, fs::metadata(at("a.toml")).unwrap().len());
     fs::create_dir(at("b_files")).unwrap();

@@ -8,7 +8,7 @@ use super::primitive::Primitive;
 use super::reader::Reader;
 use crate::Result;
 use crate::import::mesh::normalize_normals;
-use crate::scene::{Handle, Material, Mesh, MeshPart};
+use crate::scene::{Handle, Material, Mesh, MeshPart, unit};
 use glam::{Affine3A, Vec4};
 use std::collections::HashMap;
 
@@ -94,6 +94,14 @@ impl<'a> Reader<'a> {
         let mut handles = Vec::new();
         for mut group in groups.into_iter().filter(|group| !group.mesh.triangles.is_empty()) {
             normalize_normals(&mut group.mesh);
+            for tangent in &mut group.mesh.tangents {
+                // One without a direction is none, as in a PLY file
+                *tangent = unit(tangent.truncate()).unwrap_or_default().extend(if tangent.w < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                });
+            }
             handles.push(self.scene.meshes.add(source.name.as_str(), group.mesh));
         }
         Ok(handles)
@@ -137,7 +145,9 @@ impl<'a> Reader<'a> {
         }
         let name = self.scene.materials.name(material).to_owned();
         let triangles = start..mesh.triangles.len() as u32;
-        mesh.parts.push(MeshPart { name, triangles, material: Some(material) });
+        if !triangles.is_empty() {
+            mesh.parts.push(MeshPart { name, triangles, material: Some(material) });
+        }
         Ok(())
     }
 }

@@ -157,7 +157,11 @@ impl Reader<'_> {
         if !(turn * turn.transpose()).abs_diff_eq(Mat3::IDENTITY, 1e-3) {
             self.unsupported(Unsupported::ShearedLight, &from.spot);
         }
-        Ok(axes)
+        // At right angles exactly, the last as it was and the middle one as near as it can be
+        let [_, y, z] = axes.map(|axis| axis.as_dvec3());
+        let side = turn.determinant().signum();
+        let x = y.cross(z).try_normalize().ok_or_else(|| from.error(FLAT).help("give every axis a size"))?;
+        Ok([x * f64::from(side), z.cross(x).normalize(), z].map(|axis| axis.as_vec3()))
     }
 }
 

@@ -20,7 +20,7 @@ use glam::Vec3;
 /// Widths of microfacets below this are smooth, as in pbrt.
 const SMOOTH: f32 = 1e-3;
 /// Points of the square root by which textures of roughness become widths.
-const ROOT_POINTS: u32 = 64;
+const ROOT_POINTS: usize = Texture::MOST_STOPS;
 /// An index that is no number of its own.
 const USUAL_INDEX: f32 = 1.5;
 
@@ -195,8 +195,9 @@ impl Reader<'_> {
                 Value::Constant(if width < SMOOTH { 0.0 } else { width.min(1.0) })
             }
             Value::Texture(handle) if remap => {
-                let points =
-                    (0..=ROOT_POINTS).map(|i| i as f32 / ROOT_POINTS as f32).map(|root| (root * root, root));
+                let points = (0..ROOT_POINTS)
+                    .map(|i| i as f32 / (ROOT_POINTS - 1) as f32)
+                    .map(|root| (root * root, root));
                 let value = Value::Texture(handle);
                 Value::Texture(self.part(Texture::Curve { value, points: points.collect(), smooth: false }))
             }

@@ -8,6 +8,7 @@ use super::reader::Reader;
 use super::shape::Looks;
 use super::unsupported::Unsupported;
 use crate::Result;
+use crate::import::mesh::normalize_normals;
 use crate::import::text::Limits;
 use crate::scene::{Displacement, DisplacementDirection, EdgeLimit, Mesh, MeshPart, Value};
 use glam::{Vec2, Vec3};
@@ -189,6 +190,7 @@ pub(super) fn indices<const N: usize>(from: &Parameters, count: usize) -> Result
 /// A mesh as one part, whose front is that of pbrt: where the normals of its vertices point, or else where its corners go round
 /// counter-clockwise; the reverse of both after `ReverseOrientation`.
 pub(super) fn oriented(mut mesh: Mesh, reverse: bool) -> Mesh {
+    normalize_normals(&mut mesh);
     if reverse {
         mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
     }

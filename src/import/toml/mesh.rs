@@ -6,6 +6,7 @@ use super::reader::Reader;
 use super::text::{Limits, shown, suggest};
 use super::view::{Item, View};
 use crate::Result;
+use crate::import::mesh::normalize_normals;
 use crate::scene::{Handle, Material, Mesh, MeshPart};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::{BTreeMap, BTreeSet};
@@ -53,6 +54,8 @@ impl Reader<'_> {
                 view.error(format!("{} cannot be subdivided: {}", view.what, error.message))
                     .help(error.help.unwrap_or_default())
             })?;
+            // Where sheets meet back to back the limit has none
+            normalize_normals(&mut mesh);
         }
         if !smooth {
             mesh.normals = Vec::new();

@@ -7,8 +7,8 @@ use super::reader::Reader;
 use super::shape::placed;
 use super::text::Limits;
 use super::view::{Item, View};
-use crate::import::{Model, ModelCamera, ModelChoice, framing, studio};
-use crate::scene::{Camera, Instance, Light, MAX_SIDE};
+use crate::import::{Model, ModelCamera, ModelChoice, affine, framing, studio};
+use crate::scene::{Camera, Instance, Light, MAX_SIDE, Meter, unit};
 use crate::{Error, Place, Result};
 use glam::Affine3A;
 use std::collections::BTreeMap;
@@ -68,12 +68,21 @@ impl Reader<'_> {
         }
         let (map, at_close) = placed(view)?;
         let model = self.model(file, &path, &choice)?;
-        let own = model.instances.iter().map(|instance| Instance {
-            world_from_object: map * instance.world_from_object,
-            at_close: at_close.map(|close| close * instance.world_from_object),
-            ..instance.clone()
+        let own = model.instances.iter().map(|instance| {
+            let narrow = |map: &Affine3A| {
+                let whole = map.as_daffine3() * instance.world_from_object.as_daffine3();
+                affine::narrow(&whole).ok_or_else(|| {
+                    let message = format!(
+                        "`transform` makes `{}` of the model flat, or moves it out of all bounds",
+                        instance.name
+                    );
+                    file.error(message).help("scale all axes alike, and less")
+                })
+            };
+            let (world_from_object, at_close) = (narrow(&map)?, at_close.as_ref().map(narrow).transpose()?);
+            Ok(Instance { world_from_object, at_close, ..instance.clone() })
         });
-        let own: Vec<Instance> = own.collect();
+        let own: Vec<Instance> = own.collect::<Result<_>>()?;
         self.models.cameras.extend(model.cameras.iter().map(|camera| moved_camera(camera, &map)));
         self.models.lights.extend(model.lights.iter().map(|light| light.clone().moved(&map)));
         self.models.instances.extend(own.iter().cloned());
@@ -109,6 +118,10 @@ impl Reader<'_> {
         let chosen = self.models.choice.camera.clone();
         if chosen.is_some() || document.get("camera").is_none() {
             let cameras = Model { cameras: std::mem::take(&mut self.models.cameras), ..Model::default() };
+            if let Meter::Shot(_) = self.scene.film.exposure.meter {
+                // Its shutter and f-number were those of the camera that is replaced
+                self.scene.film.exposure.meter = Meter::Fixed;
+            }
             match cameras.camera(chosen.as_deref())? {
                 Some(camera) => {
                     self.scene.camera = camera.camera.clone();
@@ -145,7 +158,7 @@ fn moved_camera(camera: &ModelCamera, map: &Affine3A) -> ModelCamera {
     let moved = Camera {
         position: map.transform_point3(position),
         target: map.transform_point3(target),
-        up: map.transform_vector3(up),
+        up: unit(map.transform_vector3(up)).unwrap_or(up),
         mirrored: mirrored != (map.matrix3.determinant() < 0.0),
         ..camera.camera.clone()
     };

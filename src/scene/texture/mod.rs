@@ -168,6 +168,9 @@ pub enum Texture {
 }
 
 impl Texture {
+    /// Most stops of a ramp and points of a curve: each is looked at for every value.
+    pub const MOST_STOPS: usize = 64;
+
     /// The textures that this one is made of.
     pub fn inputs(&self) -> impl Iterator<Item = Handle<Texture>> {
         let two = |a: &Value<Vec3>, b: &Value<Vec3>| [a.texture(), b.texture(), None];

@@ -10,8 +10,6 @@ use crate::import::toml::view::{Item, View};
 use crate::scene::{Texture, Value, Warp};
 use glam::Vec3;
 
-/// Most stops of a map: each is looked at for every value.
-const MOST_STOPS: usize = 64;
 /// Keys of the noise of a warp, which another texture replaces.
 const WARP_NOISE: [&str; 6] = ["octaves", "gain", "lacunarity", "space", "transform", "filter_width"];
 
@@ -90,8 +88,8 @@ impl Map {
             }
             stops.push((at, read(*what)?));
         }
-        if stops.is_empty() || stops.len() > MOST_STOPS {
-            return Err(item.mismatch(&format!("from 1 to {MOST_STOPS} {}", self.many)));
+        if stops.is_empty() || stops.len() > Texture::MOST_STOPS {
+            return Err(item.mismatch(&format!("from 1 to {} {}", Texture::MOST_STOPS, self.many)));
         }
         Ok(stops)
     }
