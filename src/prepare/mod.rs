@@ -28,6 +28,7 @@ mod textures;
 mod triangles;
 mod units;
 mod variant;
+mod variants;
 mod wide;
 
 pub use atlas::Atlas;
@@ -36,6 +37,7 @@ pub use displace::{displace, displacing};
 pub(crate) use environment::rows as environment_rows;
 pub use textures::{PreparedTextures, prepare_textures};
 pub use variant::{Stage, defines, stack_size};
+pub use variants::{Variant, Variants, variants};
 pub use wide::{Leaves, Tree};
 
 use crate::Result;
