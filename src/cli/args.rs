@@ -1,8 +1,10 @@
 //! What the user typed: nothing here looks at the world.
 
 mod diff;
+mod shaders;
 
 pub use diff::DiffArgs;
+pub use shaders::{CheckShadersArgs, ExportShadersArgs, ShadersArgs, ShadersVerb};
 
 use super::parse::{self, Pixel, Setting, Size};
 use clap::{Args as ClapArgs, Parser, Subcommand};
@@ -46,6 +48,8 @@ pub enum Command {
     Bake(BakeArgs),
     /// Compare two pictures: relative error, ꟻLIP, and whether noise explains the difference; needs no device
     Diff(DiffArgs),
+    /// Write the shaders of the program as files, or check those of your own; needs no device
+    Shaders(ShadersArgs),
 }
 
 /// `dapple bake`.
@@ -230,7 +234,7 @@ pub struct RenderArgs {
     /// Number of the first sample of each pixel
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub first_sample: u32,
-    /// Folder of shaders that come before those of the program
+    /// Folder of shaders that come before those of the program; `dapple shaders` writes one
     #[arg(long, value_name = "DIR")]
     pub shaders: Option<PathBuf>,
     /// How the scene is read

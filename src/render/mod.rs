@@ -1,6 +1,7 @@
 //! [`Resident`] → [`Film`]: the plan and its execution.
 
 mod camera;
+mod check;
 mod evaluate;
 mod frame;
 mod kernels;
@@ -9,6 +10,7 @@ mod resident;
 mod slicing;
 mod wave;
 
+pub use check::{Checked, check_kernels};
 pub use evaluate::{Evaluator, displace};
 pub use kernels::{Kernels, key};
 pub use resident::Resident;

@@ -12,6 +12,7 @@ mod diff;
 mod errors;
 mod models;
 mod pictures;
+mod shaders;
 mod stopping;
 
 use serde_json::Value;
