@@ -15,7 +15,7 @@ pub enum ErrorKind {
 }
 
 /// A place in a text or binary file.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Place {
     /// The file, as the user would name it.
     pub file: PathBuf,

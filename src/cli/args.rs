@@ -1,5 +1,11 @@
 //! What the user typed: nothing here looks at the world.
 
+mod diff;
+mod shaders;
+
+pub use diff::DiffArgs;
+pub use shaders::{CheckShadersArgs, ExportShadersArgs, ShadersArgs, ShadersVerb};
+
 use super::parse::{self, Pixel, Setting, Size};
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use dapple::import::ModelChoice;
@@ -47,41 +53,9 @@ pub enum Command {
     Bake(BakeArgs),
     /// Compare two pictures: relative error, ꟻLIP, and whether noise explains the difference; needs no device
     Diff(DiffArgs),
+    /// Write the shaders of the program as files, or check those of your own; needs no device
+    Shaders(ShadersArgs),
 }
-
-/// `dapple diff`.
-#[derive(Debug, ClapArgs)]
-#[command(after_help = DIFF_HELP)]
-pub struct DiffArgs {
-    /// The picture that is right: EXR or HDR (linear), PNG or JPEG (sRGB)
-    pub reference: PathBuf,
-    /// The picture that is tested
-    pub picture: PathBuf,
-    /// Variance of the means of the reference, a picture; default: its layer `variance`
-    #[arg(long, value_name = "FILE")]
-    pub variance: Option<PathBuf>,
-    /// Relative difference that the statistical test lets pass
-    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = parse::not_negative)]
-    pub systematic: f64,
-    /// Fail where the relative mean squared error is larger
-    #[arg(long, value_name = "X", value_parser = parse::not_negative)]
-    pub max_rel_mse: Option<f64>,
-    /// Fail where the mean ꟻLIP error is larger
-    #[arg(long, value_name = "X", value_parser = parse::not_negative)]
-    pub max_flip: Option<f64>,
-    /// Write a PNG with the reference, the picture, and the ꟻLIP error as colours from black to light yellow
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// Print what was found as a line of JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-const DIFF_HELP: &str = "Exit code 0 when the pictures agree, 1 when they differ. What counts: the limits that are given; the \
-    statistical test when the variance of the reference is known; with neither, whether all pixels are the same.\n\
-    The test: Student's t for each pixel with the level of 1 % shared out among the pixels (Šidák), of which 99.75 % must \
-    agree; the same for blocks of 8 × 8 pixels, of which 99 % must; and the mean of the picture within 4 standard errors.\n\
-    relMSE is the mean of (b - a)² / (a² + 0.01) over pixels and channels.";
 
 /// `dapple bake`.
 #[derive(Debug, ClapArgs)]
@@ -265,7 +239,7 @@ pub struct RenderArgs {
     /// Number of the first sample of each pixel
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub first_sample: u32,
-    /// Folder of shaders that come before those of the program
+    /// Folder of shaders that come before those of the program; `dapple shaders` writes one
     #[arg(long, value_name = "DIR")]
     pub shaders: Option<PathBuf>,
     /// Show the picture as it grows in tev, which runs already

@@ -94,6 +94,20 @@ pub enum Event {
         not_finite: u64,
         seconds: f64,
     },
+    /// Something wrong or doubtful in a shader.
+    Problem {
+        /// `error` or `warning`.
+        severity: &'static str,
+        file: String,
+        line: u32,
+        column: u32,
+        message: String,
+        help: Option<String>,
+        /// A kernel in which it is, with its switches.
+        kernel: Option<String>,
+    },
+    /// Shaders are checked.
+    Checked { kernels: usize, variants: usize, errors: usize, warnings: usize, seconds: f64 },
     /// The end, with exit code 1 or 2.
     Error {
         message: String,

@@ -21,6 +21,7 @@ mod pixel;
 mod render;
 mod repeat;
 mod report;
+mod shaders;
 mod stop;
 mod version;
 
@@ -61,6 +62,9 @@ pub fn run() -> ExitCode {
         Some(Command::Bake(args)) => with(Console::new(args.json, args.quiet), |c| Ok(bake::run(&args, c)?)),
         Some(Command::Diff(args)) => with(Console::new(args.json, false), |c| Ok(diff::run(&args, c)?)),
         Some(Command::Lens(args)) => with(Console::new(args.json, false), |c| Ok(lens::run(&args, c)?)),
+        Some(Command::Shaders(args)) => {
+            with(Console::new(args.verb.json(), false), |c| Ok(shaders::run(&args, c)?))
+        }
         None => {
             console::say(&Args::command().render_help().to_string());
             return ExitCode::from(USAGE);

@@ -11,6 +11,7 @@ mod huge_pages;
 mod instance;
 mod limits;
 mod pipeline;
+mod table;
 
 pub use buffer::{Buffer, Place};
 pub use census::Alive;
@@ -18,6 +19,7 @@ pub use command::{Command, Ticket};
 pub use device::{DeviceChoice, DeviceInfo, DeviceType, Gpu, Limits, choose, devices};
 pub use instance::{late_messages, validation_from_environment};
 pub use pipeline::{Bindings, Layout, Pipeline};
+pub use table::examine;
 
 use crate::{Error, Result};
 use ash::vk;

@@ -2,9 +2,10 @@
 
 use super::census::Token;
 use super::device::{Gpu, Inner};
+use super::table::{confirm, descriptors};
 use super::{Buffer, Place, check, limits};
-use crate::layout::{BINDINGS, Backend, Binding, BindingKind, WORD_BYTES, WORKGROUP};
-use crate::shader::{BindingClass, Scan, Spirv, scan};
+use crate::layout::{BINDINGS, Backend, WORD_BYTES};
+use crate::shader::{Spirv, scan};
 use crate::{Error, Result};
 use ash::vk;
 use std::collections::HashMap;
@@ -38,50 +39,6 @@ pub struct Bindings {
     keep: Vec<Arc<Buffer>>,
     layout: Arc<Layout>,
     _counted: Token,
-}
-
-/// The descriptors of a binding: number and type.
-fn descriptors(binding: &Binding, backend: Backend) -> Vec<(u32, vk::DescriptorType)> {
-    let storage = (binding.number, vk::DescriptorType::STORAGE_BUFFER);
-    let texels = binding.view.map(|number| (number, vk::DescriptorType::UNIFORM_TEXEL_BUFFER));
-    match (binding.kind, backend, texels) {
-        (BindingKind::Uniform, ..) => vec![(binding.number, vk::DescriptorType::UNIFORM_BUFFER)],
-        (BindingKind::Read, Backend::Texel, Some(texels)) => vec![texels],
-        (BindingKind::ReadWrite, Backend::Texel, Some(texels)) => vec![storage, texels],
-        _ => vec![storage],
-    }
-}
-
-/// Compares what a kernel uses with the table.
-fn confirm(kernel: &Scan, backend: Backend) -> Result<()> {
-    let [x, y, z] = kernel.local_size;
-    if kernel.local_size != [WORKGROUP, 1, 1] {
-        return Err(Error::device(format!("the workgroups are of {x} x {y} x {z}, not {WORKGROUP} x 1 x 1"))
-            .help("leave `local_size_x` to the files that the kernel includes"));
-    }
-    for (&(set, number), &class) in &kernel.bindings {
-        let known = BINDINGS.iter().flat_map(|binding| descriptors(binding, backend));
-        let wanted =
-            known.filter(|known| set == 0 && known.0 == number).map(|known| class_of(known.1)).next();
-        let seen = format!("the kernel uses set {set}, binding {number} as {class}");
-        let message = match wanted {
-            Some(Some(wanted)) if wanted == class => continue,
-            Some(Some(wanted)) => format!("{seen}, but it is {wanted}"),
-            _ => format!("{seen}, but no such binding is bound"),
-        };
-        return Err(Error::device(message).help("use the names of shaders/shared/bindings.glsl alone"));
-    }
-    Ok(())
-}
-
-/// What a kernel may use a descriptor as.
-fn class_of(kind: vk::DescriptorType) -> Option<BindingClass> {
-    match kind {
-        vk::DescriptorType::STORAGE_BUFFER => Some(BindingClass::Storage),
-        vk::DescriptorType::UNIFORM_BUFFER => Some(BindingClass::Uniform),
-        vk::DescriptorType::UNIFORM_TEXEL_BUFFER => Some(BindingClass::TexelBuffer),
-        _ => None,
-    }
 }
 
 impl Gpu {
@@ -295,48 +252,5 @@ impl Drop for Bindings {
             }
             self.layout.inner.device.destroy_descriptor_pool(self.pool, None);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::shader::{KernelKey, Sources, compile};
-
-    /// What a kernel uses that has some lines in front of an empty `main`.
-    fn kernel(size: u32, lines: &str) -> Scan {
-        let text = format!("layout(local_size_x = {size}) in;\n{lines}");
-        let sources = Sources::from_map([("a.comp", text)]).unwrap();
-        scan(compile(&sources, &KernelKey::new("a.comp")).unwrap().words()).unwrap()
-    }
-
-    fn texels(set: u32, number: u32) -> Scan {
-        kernel(
-            64,
-            &format!(
-                "layout(set = {set}, binding = {number}) uniform usamplerBuffer a;
-                 layout(std430, set = 0, binding = 18) buffer B {{ uint b[]; }};
-                 void main() {{ b[0] = texelFetch(a, 1).x; }}"
-            ),
-        )
-    }
-
-    #[test]
-    fn kernels_keep_to_the_table() {
-        // The nodes are binding 1, and 33 as texels.
-        confirm(&texels(0, 33), Backend::Texel).unwrap();
-        let refused = |scan: &Scan, backend| confirm(scan, backend).unwrap_err().to_string();
-        let text = refused(&texels(0, 33), Backend::Storage);
-        assert_eq!(
-            text,
-            "the kernel uses set 0, binding 33 as a texel buffer, but no such binding is bound; \
-             use the names of shaders/shared/bindings.glsl alone"
-        );
-        assert!(refused(&texels(1, 33), Backend::Texel).contains("set 1, binding 33"));
-        assert!(refused(&texels(0, 90), Backend::Texel).contains("no such binding"));
-        let text = refused(&texels(0, 18 - 1), Backend::Texel);
-        assert!(text.contains("binding 17 as a texel buffer, but it is a storage buffer"), "{text}");
-        let text = refused(&kernel(32, "void main() {}"), Backend::Texel);
-        assert!(text.starts_with("the workgroups are of 32 x 1 x 1, not 64 x 1 x 1"), "{text}");
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 /// How kernels read words.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Backend {
     /// Uniform texel buffers of R32G32B32A32_UINT: fastest on lavapipe.
     Texel,

@@ -93,7 +93,7 @@ impl Stage {
     }
 }
 
-const SAMPLERS: [(&str, Sampler); 5] = [
+pub(super) const SAMPLERS: [(&str, Sampler); 5] = [
     ("SAMPLER_CENTER", Sampler::Center),
     ("SAMPLER_REGULAR", Sampler::Regular),
     ("SAMPLER_RANDOM", Sampler::Random),

@@ -2,6 +2,7 @@
 
 mod accumulate;
 mod camera;
+mod check;
 mod evaluate;
 mod frame;
 mod kernels;
@@ -13,6 +14,7 @@ mod uploads;
 mod wave;
 
 pub use accumulate::Accumulation;
+pub use check::{Checked, check_kernels};
 pub use evaluate::{Evaluator, displace};
 pub use kernels::{Kernels, key};
 pub use open::{Kept, Opened};

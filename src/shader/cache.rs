@@ -78,6 +78,10 @@ impl KeyHasher {
         self
     }
 
+    pub(super) fn word(&mut self, word: u32) {
+        self.0.update(&word.to_le_bytes());
+    }
+
     pub(super) fn finish(&self) -> blake3::Hash {
         self.0.finalize()
     }

@@ -103,39 +103,65 @@ impl fmt::Display for KernelKey {
 ///
 /// When a file is missing or cannot be read, or glslang refuses the code: with file and line.
 pub fn compile(sources: &Sources, key: &KernelKey) -> Result<Spirv> {
-    compile_with(&|name| sources.read(name), &|name| sources.is_virtual(name), key)
+    compile_with(&|name| sources.read(name), &|name| sources.is_virtual(name), key, Until::FirstError)
+        .map_err(|errors| one_of(&errors, key))
+}
+
+/// One error for all that are wrong with a kernel.
+pub(super) fn one_of(errors: &[Error], key: &KernelKey) -> Error {
+    log::joined(errors).unwrap_or_else(|| unexplained(key))
+}
+
+fn unexplained(key: &KernelKey) -> Error {
+    Error::device("glslang failed without saying why").in_file(Path::new(&key.file))
+}
+
+/// How far the compiler reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Until {
+    /// To the first error.
+    FirstError,
+    /// To the end, or to the first error of syntax. Some of the errors may follow from others.
+    TheEnd,
 }
 
 /// Compiles one kernel from the texts that `read` returns; `is_virtual` tells which belong to the scene.
+///
+/// # Errors
+///
+/// At least one.
 pub(super) fn compile_with(
     read: Read<'_>,
     is_virtual: &(dyn Fn(&str) -> bool + Sync),
     key: &KernelKey,
-) -> Result<Spirv> {
-    let prologue = key.prologue()?;
+    until: Until,
+) -> Result<Spirv, Vec<Error>> {
+    let prologue = key.prologue().map_err(|error| vec![error])?;
     let mut includes = Includes::new(read);
-    let text = includes.take(&key.file)?;
+    let text = includes.take(&key.file).map_err(|error| vec![error])?;
     let source = format!("{prologue}#line 1 \"{}\"\n{text}\n", key.file);
     if source.contains('\0') {
-        return Err(Error::device("there is a zero byte in the text").in_file(Path::new(&key.file)));
+        return Err(vec![Error::device("there is a zero byte in the text").in_file(Path::new(&key.file))]);
     }
-    let outcome = stack::run("glslang", || run_glslang(source, &mut includes))?;
+    let outcome =
+        stack::run("glslang", || run_glslang(source, &mut includes, until)).map_err(|error| vec![error])?;
     let log = match &outcome {
         Ok((_, log)) => log.as_str(),
         Err(Failure::Log(log)) => log.as_str(),
-        Err(Failure::Other(error)) => return Err(error.clone().in_file(Path::new(&key.file))),
+        Err(Failure::Other(error)) => return Err(vec![error.clone().in_file(Path::new(&key.file))]),
     };
-    if let Some(error) = log::error_of(log, &key.file, &includes.refused, &|name| {
+    let errors = log::errors_of(log, &key.file, &includes.refused, &|name| {
         // A text of a scene may rename its lines to the user's own file, which is none of the tree.
         is_virtual(name) || !includes.files.contains(name)
-    }) {
-        return Err(error);
+    });
+    if !errors.is_empty() {
+        return Err(errors);
     }
     match outcome {
         Ok((words, _)) if words.first() == Some(&SPIRV_MAGIC) => {
             Ok(Spirv { key: key.clone(), words, includes: includes.files })
         }
-        _ => Err(Error::device("glslang failed without saying why").in_file(Path::new(&key.file))),
+        _ => Err(vec![unexplained(key)]),
     }
 }
 
@@ -148,9 +174,14 @@ enum Failure {
 fn run_glslang(
     source: String,
     includes: &mut Includes<'_>,
+    until: Until,
 ) -> std::result::Result<(Vec<u32>, String), Failure> {
     let compiler = glslang::Compiler::acquire()
         .ok_or_else(|| Failure::Other(Error::device("glslang cannot be initialised")))?;
+    let further = match until {
+        Until::FirstError => ShaderMessage::empty(),
+        Until::TheEnd => ShaderMessage::CASCADING_ERRORS,
+    };
     let options = CompilerOptions {
         source_language: SourceLanguage::GLSL,
         // Vulkan 1.1 although the device has 1.2: for SPIR-V 1.4 and later glslang writes copies of whole
@@ -158,7 +189,7 @@ fn run_glslang(
         target: Target::Vulkan { version: VulkanVersion::Vulkan1_1, spirv_version: SpirvVersion::SPIRV1_3 },
         // Taken from the #version line of the prologue.
         version_profile: None,
-        messages: ShaderMessage::DEFAULT | ShaderMessage::SPV_RULES | ShaderMessage::VULKAN_RULES,
+        messages: ShaderMessage::DEFAULT | ShaderMessage::SPV_RULES | ShaderMessage::VULKAN_RULES | further,
     };
     let source = ShaderSource::from(source);
     let no_defines: Option<&[(&str, Option<&str>)]> = None;

@@ -1,14 +1,15 @@
 //! Kernels on demand: from the disk cache where they are sound, else from glslang.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use super::cache::{CacheOptions, KeyHasher};
-use super::compile::{COMPILER_ID, KernelKey, Spirv, compile_with};
+use super::compile::{COMPILER_ID, KernelKey, SPIRV_MAGIC, Spirv, Until, compile_with, one_of};
 use super::graph::{IncludeGraph, reachable};
+use super::reflect::VALIDATOR_ID;
 use super::source::Sources;
-use crate::Result;
+use crate::{Error, Result};
 
 /// Counts of a [`Compiler`] since it was made.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -66,9 +67,22 @@ impl Compiler {
     ///
     /// When a file is missing or cannot be read, or glslang refuses the code: with file and line.
     pub fn kernel(&self, key: &KernelKey) -> Result<Spirv> {
+        self.kernel_until(key, Until::FirstError).map_err(|errors| one_of(&errors, key))
+    }
+
+    /// As [`Self::kernel`], with every error that the compiler finds by reading on; some may follow from others.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::kernel`]: at least one.
+    pub fn kernel_or_errors(&self, key: &KernelKey) -> Result<Spirv, Vec<Error>> {
+        self.kernel_until(key, Until::TheEnd)
+    }
+
+    fn kernel_until(&self, key: &KernelKey, until: Until) -> Result<Spirv, Vec<Error>> {
         let started = Instant::now();
         let snapshot = Snapshot::take(&self.sources, &key.file);
-        let hash = snapshot.hash(key)?;
+        let hash = snapshot.hash(key).map_err(|error| vec![error])?;
         if let Some(spirv) = self.remembered(key, &hash, started) {
             return Ok(spirv);
         }
@@ -84,7 +98,7 @@ impl Compiler {
         let looked_up = started.elapsed().as_secs_f64();
         let started = Instant::now();
         let read = |name: &str| snapshot.read(name).unwrap_or_else(|| self.sources.read(name));
-        let outcome = compile_with(&read, &|name| self.sources.is_virtual(name), key);
+        let outcome = compile_with(&read, &|name| self.sources.is_virtual(name), key, until);
         let compiled = started.elapsed().as_secs_f64();
         let started = Instant::now();
         if let Ok(spirv) = &outcome {
@@ -113,6 +127,25 @@ impl Compiler {
         state.stats.lookup_seconds += started.elapsed().as_secs_f64();
         state.graph.record(key, spirv.includes.clone());
         Some(spirv)
+    }
+
+    /// Runs a check of a kernel, unless the cache knows that it went well before. `what` tells checks apart, with all that they depend
+    /// on beside the kernel.
+    ///
+    /// # Errors
+    ///
+    /// Those of the check.
+    pub fn once(&self, spirv: &Spirv, what: &str, check: impl FnOnce(&Spirv) -> Result<()>) -> Result<()> {
+        let mut hasher = KeyHasher::default();
+        hasher.text("checked").text(VALIDATOR_ID).text(env!("CARGO_PKG_VERSION")).text(what);
+        spirv.words.iter().for_each(|word| hasher.word(*word));
+        let hash = hasher.finish();
+        if self.cache.load(&hash).is_none() {
+            check(spirv)?;
+            // What is kept is that there is something
+            self.cache.store(&hash, &[SPIRV_MAGIC], &BTreeSet::new());
+        }
+        Ok(())
     }
 
     /// The kernels asked for so far that need this file, in the order of their keys.
@@ -290,6 +323,40 @@ mod tests {
             assert_eq!(compiler.dependents("base/b.glsl"), [plain.clone(), more.clone()]);
             assert_eq!(compiler.dependents("more.glsl"), std::slice::from_ref(&more));
         }
+    }
+
+    #[test]
+    fn a_check_that_went_well_is_not_repeated() {
+        let room = Room::new();
+        let (spirv, _) = room.ask(&KernelKey::new("a.comp"));
+        let check = |what: &str, outcome: Result<()>| {
+            let mut ran = false;
+            let told = room.compiler().once(&spirv, what, |_| {
+                ran = true;
+                outcome
+            });
+            (ran, told.is_ok())
+        };
+        let failure = || Err(crate::Error::device("bad"));
+        assert_eq!(check("a", failure()), (true, false));
+        assert_eq!(check("a", Ok(())), (true, true));
+        assert_eq!(check("a", failure()), (false, true));
+        assert_eq!(check("b", failure()), (true, false));
+    }
+
+    #[test]
+    fn all_errors_are_found_by_reading_on() {
+        let two = A.replace("g_out[0] = b();", "g_out[0] = first;\n g_out[1] = second;");
+        let room = Room::new();
+        room.write("a.comp", &two);
+        room.write("base/b.glsl", "float b() { return third; }\n");
+        let key = KernelKey::new("a.comp");
+        let errors = room.compiler().kernel_or_errors(&key).unwrap_err();
+        let told: Vec<_> = errors.iter().map(ToString::to_string).collect();
+        let undeclared = |place: &str, name: &str| format!("{place}: '{name}': undeclared identifier");
+        let expected = [("base/b.glsl:1", "third"), ("a.comp:7", "first"), ("a.comp:8", "second")];
+        assert_eq!(told, expected.map(|(place, name)| undeclared(place, name)));
+        assert_eq!(room.compiler().kernel(&key).unwrap_err().to_string(), told[0]);
     }
 
     #[test]

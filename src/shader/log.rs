@@ -19,46 +19,46 @@ struct Message {
     text: String,
 }
 
-/// The error that a log describes: the first message with its place, up to ten more on lines of their own.
-/// `None` when the log has no error and no warning.
+/// The errors that a log describes, in its order, each with its place. Warnings are errors.
 ///
 /// `refused` says why an include failed; `kernel` is the file that messages without a place belong to; `of_user`
 /// tells which files came with the scene instead of with the program.
-pub(super) fn error_of(
+pub(super) fn errors_of(
     log: &str,
     kernel: &str,
     refused: &BTreeMap<String, Error>,
     of_user: &dyn Fn(&str) -> bool,
-) -> Option<Error> {
+) -> Vec<Error> {
     let mut messages = messages(log, kernel);
     messages.dedup();
-    let first = messages.first()?;
-    let mut error = match refused.iter().find(|(name, _)| failed_include(&first.text) == Some(name.as_str()))
-    {
-        Some((name, why)) => explain_include(name, why),
-        None => Error::device(&first.text),
+    let error = |message: &Message| {
+        let include = refused.iter().find(|(name, _)| failed_include(&message.text) == Some(name.as_str()));
+        let error = match include {
+            Some((name, why)) => explain_include(name, why),
+            None => Error::device(&message.text),
+        };
+        let mut error = error.at(Path::new(&message.file), message.line, 0);
+        if of_user(&message.file) {
+            error.kind = ErrorKind::Scene;
+        }
+        error
     };
-    error = error.at(Path::new(&first.file), first.line, 0);
-    if of_user(&first.file) {
-        error.kind = ErrorKind::Scene;
+    messages.iter().map(error).collect()
+}
+
+/// One error for several: the first, with up to ten more on lines of their own.
+pub(super) fn joined(errors: &[Error]) -> Option<Error> {
+    let (first, further) = errors.split_first()?;
+    let mut error = first.clone();
+    for further in further.iter().take(MAX_FURTHER) {
+        let further = Error { help: None, ..further.clone() };
+        error.message.push_str(&format!("\n{further}"));
     }
-    for further in messages.iter().skip(1).take(MAX_FURTHER) {
-        error.message.push_str(&format!("\n{}", further.printed()));
-    }
-    let left = messages.len().saturating_sub(1 + MAX_FURTHER);
+    let left = further.len().saturating_sub(MAX_FURTHER);
     if left > 0 {
         error.message.push_str(&format!("\n(and {left} more)"));
     }
     Some(error)
-}
-
-impl Message {
-    fn printed(&self) -> String {
-        match self.line {
-            0 => format!("{}: {}", self.file, self.text),
-            line => format!("{}:{line}: {}", self.file, self.text),
-        }
-    }
 }
 
 fn messages(log: &str, kernel: &str) -> Vec<Message> {
@@ -114,12 +114,11 @@ fn failed_include(text: &str) -> Option<&str> {
     text.strip_prefix("'#include': ")?.rsplit_once("for header name: ").map(|(_, name)| name.trim())
 }
 
+/// What is wrong in the text of the file is told where it is; that there is no such file, where it is asked for.
 fn explain_include(name: &str, why: &Error) -> Error {
-    let place = why.place.as_ref().map_or(String::new(), |place| format!("{place}: "));
-    let error = Error::device(format!("cannot include `{name}`: {place}{}", why.message));
-    match &why.help {
-        Some(help) => error.help(help),
-        None => error,
+    match why.place {
+        Some(_) => why.clone(),
+        None => Error { message: format!("cannot include `{name}`: {}", why.message), ..why.clone() },
     }
 }
 
@@ -128,7 +127,8 @@ mod tests {
     use super::*;
 
     fn error(log: &str) -> Option<Error> {
-        error_of(log, "stages/a.comp", &BTreeMap::new(), &|file| file == "generated/textures.glsl")
+        let of_user = |file: &str| file == "generated/textures.glsl";
+        joined(&errors_of(log, "stages/a.comp", &BTreeMap::new(), &of_user))
     }
 
     #[test]

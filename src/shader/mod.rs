@@ -20,10 +20,14 @@ mod source;
 mod stack;
 #[cfg(test)]
 mod tests;
+mod tree;
 
 pub use cache::CacheOptions;
 pub use compile::{KernelKey, Spirv, compile};
 pub use compiler::{CompileStats, Compiler};
-pub use reflect::{BindingClass, ReflectedBinding, Reflection, reflect, translates_to_wgsl};
+pub use reflect::{
+    BindingClass, ReflectedBinding, Reflection, reflect, reflect_portable, translates_to_wgsl,
+};
 pub use scan::{Scan, scan};
 pub use source::Sources;
+pub use tree::embedded_files;

@@ -9,6 +9,9 @@ use naga::{AddressSpace, ArraySize, GlobalVariable, Handle, ImageClass, Module, 
 use super::stack;
 use crate::{Error, Result};
 
+/// The library that validates, as it stands in `Cargo.lock`.
+pub(super) const VALIDATOR_ID: &str = "naga 30.0.1";
+
 /// The kind of a resource.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BindingClass {
@@ -92,14 +95,32 @@ pub fn reflect(words: &[u32]) -> Result<Reflection> {
 pub fn translates_to_wgsl(words: &[u32]) -> Result<String> {
     stack::run("naga", || {
         let (module, info) = parse(words)?;
-        let flags = naga::back::wgsl::WriterFlags::empty();
-        let text = naga::back::wgsl::write_string(&module, &info, flags)
-            .map_err(|e| refusal("naga cannot write the kernel as WGSL", &e))?;
-        let again = naga::front::wgsl::parse_str(&text)
-            .map_err(|e| refusal("naga cannot read the WGSL that it wrote", &e))?;
-        validate(&again)?;
-        Ok(text)
+        wgsl(&module, &info)
     })?
+}
+
+/// [`reflect`] and [`translates_to_wgsl`] at once, which is quicker.
+///
+/// # Errors
+///
+/// Those of both.
+pub fn reflect_portable(words: &[u32]) -> Result<Reflection> {
+    stack::run("naga", || {
+        let (module, info) = parse(words)?;
+        let reflection = reflection(&module, &info)?;
+        wgsl(&module, &info)?;
+        Ok(reflection)
+    })?
+}
+
+fn wgsl(module: &Module, info: &ModuleInfo) -> Result<String> {
+    let flags = naga::back::wgsl::WriterFlags::empty();
+    let text = naga::back::wgsl::write_string(module, info, flags)
+        .map_err(|e| refusal("naga cannot write the kernel as WGSL", &e))?;
+    let again = naga::front::wgsl::parse_str(&text)
+        .map_err(|e| refusal("naga cannot read the WGSL that it wrote", &e))?;
+    validate(&again)?;
+    Ok(text)
 }
 
 fn parse(words: &[u32]) -> Result<(Module, ModuleInfo)> {

@@ -4,11 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::{ErrorKind as IoErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use include_dir::{Dir, include_dir};
-
+use super::graph::reachable;
+use super::tree::{closest, embedded, embedded_names, list_folder, strangers};
 use crate::{Error, Result};
-
-static EMBEDDED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/shaders");
 
 /// The longest shader file that is read. The largest lookup table one would write in GLSL is far below.
 pub(super) const MAX_FILE_BYTES: u64 = 4 << 20;
@@ -42,8 +40,7 @@ impl Sources {
     /// When there is no such folder, or none of its files stands for an embedded one: it would change nothing.
     pub fn folder(folder: &Path) -> Result<Self> {
         let sources = Self::any_folder(folder)?;
-        let mut names = BTreeSet::new();
-        list_embedded(&EMBEDDED, &mut names);
+        let names = embedded_names();
         let root = sources.folder.as_deref().unwrap_or(folder);
         if names.iter().any(|name| root.join(name).exists()) {
             return Ok(sources);
@@ -114,12 +111,23 @@ impl Sources {
     pub fn names(&self) -> BTreeSet<String> {
         let mut names: BTreeSet<String> = self.virtual_files.keys().cloned().collect();
         if self.embedded {
-            list_embedded(&EMBEDDED, &mut names);
+            names.extend(embedded_names());
         }
         if let Some(root) = &self.folder {
             list_folder(root, "", &mut names);
         }
         names
+    }
+
+    /// The files in the folder that stand for none of the embedded ones, each with the name that was perhaps meant. What has neither
+    /// such a name nor that of a shader is left out.
+    pub fn strangers(&self) -> Vec<(String, Option<String>)> {
+        self.folder.as_deref().map_or_else(Vec::new, strangers)
+    }
+
+    /// The names that a kernel can ask for: its own, and whatever `#include` lines lead to, also those behind conditions.
+    pub fn reachable(&self, kernel: &str) -> BTreeSet<String> {
+        reachable(kernel, |name| self.read(name).ok(), |text| text.as_deref()).into_keys().collect()
     }
 
     /// The text of a file, without a byte order mark.
@@ -140,10 +148,10 @@ impl Sources {
     }
 
     fn read_embedded(&self, name: &str) -> Result<Vec<u8>> {
-        let file = if self.embedded { EMBEDDED.get_file(name) } else { None };
-        file.map(|f| f.contents().to_vec()).ok_or_else(|| {
+        let file = if self.embedded { embedded(name) } else { None };
+        file.map(<[u8]>::to_vec).ok_or_else(|| {
             let error = Error::device(format!("there is no shader file `{name}`"));
-            match self.closest(name) {
+            match closest(&self.names(), name) {
                 Some(near) => error.help(format!("did you mean `{near}`?")),
                 None => error.help("names are relative to the root of the shader tree"),
             }
@@ -175,16 +183,10 @@ impl Sources {
         file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
         Ok(Some(bytes))
     }
-
-    fn closest(&self, name: &str) -> Option<String> {
-        let rated = self.names().into_iter().map(|n| (strsim::damerau_levenshtein(&n, name), n));
-        // Three edits: a slip of the keyboard or a wrong extension, not another file.
-        rated.filter(|(distance, _)| *distance <= 3).min().map(|(_, n)| n)
-    }
 }
 
 /// Names are plain: they are printed in logs and written between quotes into GLSL.
-fn check_name(name: &str) -> Result<()> {
+pub(super) fn check_name(name: &str) -> Result<()> {
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
     let why = if name.len() > MAX_NAME_BYTES {
         return Err(Error::device(format!(
@@ -227,31 +229,6 @@ fn decode(name: &str, bytes: Vec<u8>) -> Result<String> {
 fn line_at(bytes: &[u8], at: usize) -> u32 {
     let breaks = bytes.iter().take(at).filter(|b| **b == b'\n').count();
     u32::try_from(breaks).map_or(0, |n| n.saturating_add(1))
-}
-
-fn list_embedded(dir: &Dir<'_>, names: &mut BTreeSet<String>) {
-    for file in dir.files() {
-        // Embedded paths are relative to the root and, on Windows, may have backslashes.
-        names.insert(file.path().to_string_lossy().replace('\\', "/"));
-    }
-    for dir in dir.dirs() {
-        list_embedded(dir, names);
-    }
-}
-
-fn list_folder(folder: &Path, prefix: &str, names: &mut BTreeSet<String>) {
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
-        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
-        // The kind of the entry itself, so that links are never followed: they may lead in a circle.
-        match entry.file_type() {
-            Ok(kind) if kind.is_dir() => list_folder(&entry.path(), &format!("{name}/"), names),
-            Ok(kind) if kind.is_file() && check_name(&name).is_ok() => {
-                names.insert(name);
-            }
-            _ => {}
-        }
-    }
 }
 
 #[cfg(test)]

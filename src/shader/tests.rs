@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 
-use super::compile::{COMPILER_ID, SPIRV_MAGIC};
+use super::compile::{COMPILER_ID, SPIRV_MAGIC, Until, compile_with};
+use super::reflect::VALIDATOR_ID;
 use super::{KernelKey, Sources, Spirv, compile};
 use crate::{ErrorKind, Result};
 
@@ -22,7 +23,7 @@ fn kernel(body: &str) -> String {
 }
 
 #[test]
-fn the_id_of_the_compiler_is_the_locked_version() {
+fn the_ids_of_compiler_and_validator_are_the_locked_versions() {
     let lock: toml::Table = include_str!("../../Cargo.lock").parse().unwrap();
     let packages = lock["package"].as_array().unwrap();
     let version = |name: &str| {
@@ -31,6 +32,7 @@ fn the_id_of_the_compiler_is_the_locked_version() {
     };
     let locked = format!("glslang {}, glslang-sys {}", version("glslang"), version("glslang-sys"));
     assert_eq!(COMPILER_ID, locked);
+    assert_eq!(VALIDATOR_ID, format!("naga {}", version("naga")));
 }
 
 #[test]
@@ -194,7 +196,7 @@ fn zero_bytes_are_an_error() {
         "a.comp:2: there is a zero byte in the text"
     );
     let included = text_of(compile_files(&[("a.comp", "#include \"b\"\nvoid main() {}"), ("b", "\0")]));
-    assert_eq!(included, "a.comp:1: cannot include `b`: b:1: there is a zero byte in the text");
+    assert_eq!(included, "b:1: there is a zero byte in the text");
 }
 
 #[test]
@@ -258,6 +260,10 @@ proptest! {
         let text = words.join(separator);
         let whole = format!("{HEAD}void main() {{}}\n{text}\n");
         for files in [[("a.comp", text.as_str()), ("b", "float b;")], [("a.comp", "#include \"b\"\n"), ("b", whole.as_str())]] {
+            let sources = Sources::from_map(files).unwrap();
+            let read = |name: &str| sources.read(name);
+            let all = compile_with(&read, &|_| false, &KernelKey::new("a.comp"), Until::TheEnd);
+            prop_assert_eq!(all.is_err(), compile_files(&files).is_err());
             if let Err(error) = compile_files(&files) {
                 prop_assert!(error.place.is_some(), "{}", error);
                 prop_assert!(!error.message.contains("panicked"), "{}", error);

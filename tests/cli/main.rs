@@ -13,6 +13,7 @@ mod display;
 mod errors;
 mod models;
 mod pictures;
+mod shaders;
 mod stopping;
 
 use serde_json::Value;

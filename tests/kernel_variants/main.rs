@@ -7,12 +7,14 @@ mod common;
 mod cameras;
 mod coats;
 mod scenes;
+mod switches;
 
 use common::probe::{cache, sources};
-use dapple::layout::{BINDINGS, Backend, Binding, BindingKind, WORKGROUP};
+use dapple::gpu::examine;
+use dapple::layout::Backend;
 use dapple::prepare::{self, Prepared, Stage};
 use dapple::render;
-use dapple::shader::{BindingClass, Compiler, Reflection, Spirv, reflect, scan, translates_to_wgsl};
+use dapple::shader::{BindingClass, Compiler, Spirv, scan};
 use std::collections::BTreeMap;
 use std::io::Write as _;
 
@@ -37,72 +39,16 @@ fn kernels(backend: Backend) -> Vec<(String, Spirv)> {
     kernels
 }
 
-/// What a binding of the table may be reflected as: number and class.
-fn allowed(binding: &Binding, backend: Backend) -> Vec<(u32, BindingClass)> {
-    let storage = (binding.number, BindingClass::Storage);
-    match (binding.kind, backend, binding.view) {
-        (BindingKind::Uniform, ..) => vec![(binding.number, BindingClass::Uniform)],
-        (BindingKind::Read, Backend::Texel, Some(view)) => vec![(view, BindingClass::TexelBuffer)],
-        (BindingKind::ReadWrite, Backend::Texel, Some(view)) => {
-            vec![storage, (view, BindingClass::TexelBuffer)]
-        }
-        _ => vec![storage],
-    }
-}
-
-/// Fails for a binding that the table does not have; counts the others.
-fn check_bindings(
-    name: &str,
-    bindings: impl Iterator<Item = (u32, u32, BindingClass)>,
-    backend: Backend,
-) -> usize {
-    let table: BTreeMap<u32, BindingClass> = BINDINGS.iter().flat_map(|b| allowed(b, backend)).collect();
-    let mut count = 0;
-    for (set, number, class) in bindings {
-        assert_eq!(set, 0, "{name}");
-        assert_eq!(table.get(&number), Some(&class), "{name}: binding {number}");
-        count += 1;
-    }
-    count
-}
-
 #[test]
-fn storage_kernels_are_portable_and_keep_to_the_table() {
-    for (name, spirv) in kernels(Backend::Storage) {
-        let Reflection { local_size, bindings } =
-            reflect(spirv.words()).unwrap_or_else(|e| panic!("{name}: {e}"));
-        assert_eq!(local_size, [WORKGROUP, 1, 1], "{name}");
-        let used = bindings.iter().map(|b| (b.set, b.binding, b.class));
-        assert!(check_bindings(&name, used, Backend::Storage) > 0, "{name}");
-        for binding in &bindings {
-            let row = BINDINGS.iter().find(|b| b.number == binding.binding).unwrap();
-            let stride = match row.kind {
-                BindingKind::Uniform => None,
-                BindingKind::Uints => Some(4),
-                BindingKind::Read | BindingKind::ReadWrite => Some(16),
-            };
-            assert_eq!(binding.element_stride, stride, "{name}: {}", row.name);
-            if row.kind == BindingKind::Uniform {
-                assert_eq!(binding.size, Some(size_of::<dapple::layout::Frame>() as u32), "{name}");
-            }
-        }
-        translates_to_wgsl(spirv.words()).unwrap_or_else(|e| panic!("{name}: {e}"));
-        let scanned = scan(spirv.words()).unwrap();
-        assert_eq!(scanned.local_size, local_size, "{name}");
-        let reflected: BTreeMap<_, _> = bindings.iter().map(|b| ((b.set, b.binding), b.class)).collect();
-        assert_eq!(scanned.bindings, reflected, "{name}");
-    }
-}
-
-#[test]
-fn texel_kernels_keep_to_the_table() {
+fn kernels_keep_to_the_table_and_those_that_read_storage_are_portable() {
     let mut views = 0;
-    for (name, spirv) in kernels(Backend::Texel) {
-        let scanned = scan(spirv.words()).unwrap_or_else(|e| panic!("{name}: {e}"));
-        assert_eq!(scanned.local_size, [WORKGROUP, 1, 1], "{name}");
-        let used = scanned.bindings.iter().map(|((set, binding), class)| (*set, *binding, *class));
-        assert!(check_bindings(&name, used, Backend::Texel) > 0, "{name}");
-        views += scanned.bindings.values().filter(|c| **c == BindingClass::TexelBuffer).count();
+    for backend in [Backend::Storage, Backend::Texel] {
+        for (name, spirv) in kernels(backend) {
+            examine(&spirv, backend).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let used = scan(spirv.words()).unwrap().bindings;
+            assert!(!used.is_empty(), "{name}");
+            views += used.values().filter(|class| **class == BindingClass::TexelBuffer).count();
+        }
     }
     assert!(views > 20, "{views} texel buffers");
 }
