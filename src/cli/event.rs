@@ -61,6 +61,8 @@ pub enum Event {
         /// The command that renders the first pixel again that had a sample that was not finite.
         repeat: Option<String>,
     },
+    /// The page of `dapple live` is there.
+    Serving { url: String },
     /// The first pixels of an edited scene are there.
     Generation {
         number: u64,

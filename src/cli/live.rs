@@ -6,9 +6,10 @@ use super::event::{Event, Where};
 use super::job;
 use super::stop::Stop;
 use dapple::gpu::{DeviceChoice, DeviceType, Gpu, validation_from_environment};
-use dapple::live::{Generation, Live, Request, State};
+use dapple::live::{About, Address, Generation, Live, Request, Server, State};
 use dapple::shader::CacheOptions;
 use dapple::{Error, Result};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -26,13 +27,38 @@ pub fn run(args: &LiveArgs, console: &mut Console) -> Result<()> {
     if gpu.info().kind == DeviceType::Cpu {
         console.note(&format!("rendering on the CPU: {}", gpu.info().name));
     }
+    let device = gpu.info().name.clone();
     let live = Live::start(gpu, request(args), args.spp)?;
+    let server = if args.no_page { None } else { Some(serve(&live, args, device, console)?) };
     let mut told = Told::default();
     while stop.reason(Duration::ZERO).is_none() {
         let state = live.show().wait(PATIENCE, |state| told.is_behind(state));
         told.tell(&state, console);
     }
+    drop(server);
     Ok(())
+}
+
+fn serve(live: &Live, args: &LiveArgs, device: String, console: &mut Console) -> Result<Server> {
+    let folder = match args.scene.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let roots = std::iter::once(folder.to_path_buf()).chain(args.shaders.clone()).collect();
+    let address = Address { host: args.host, port: args.port };
+    let server = Server::start(live, &address, About { device, spp: args.spp, roots })?;
+    let url = server.url();
+    if console.json() {
+        console.event(&Event::Serving { url: url.to_owned() });
+    } else {
+        console.result(url);
+    }
+    if args.open
+        && let Err(error) = open::that_detached(url)
+    {
+        console.note(&format!("no browser could be opened: {error}; go to {url}"));
+    }
+    Ok(server)
 }
 
 fn request(args: &LiveArgs) -> Request {

@@ -9,7 +9,7 @@ const BLACK: f64 = 1e-6;
 const MOST_STOPS: f64 = 64.0;
 
 /// The factor on all colours of a picture.
-pub(super) fn gain(picture: &Picture, film: &scene::Film) -> f64 {
+pub fn gain(picture: &Picture, film: &scene::Film) -> f64 {
     let metered = match film.exposure.meter {
         Meter::Fixed => 1.0,
         Meter::Shot(shot) => shot.gain(),

@@ -14,9 +14,10 @@ mod tone;
 mod write;
 
 pub use grid::{Grid, write_grid};
+pub use meter::gain;
 pub use resolve::Picture;
 pub use tone::srgb;
-pub use write::{Format, Meta, check_target, format_of, write, write_bytes};
+pub use write::{Format, Meta, check_target, encode, format_of, write, write_bytes};
 
 use crate::layout::FILM_PLANES;
 use crate::scene::{MAX_SAMPLES, Rect};

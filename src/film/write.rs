@@ -3,7 +3,7 @@
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-use super::{Film, Picture, exr, png};
+use super::{Film, Frame, Picture, exr, png};
 use crate::{Error, Result, scene, whole_file};
 
 /// File formats of pictures.
@@ -31,10 +31,16 @@ pub struct Meta {
 impl Film {
     /// What a file of this film says about how it was made.
     pub fn meta(&self) -> Meta {
-        let frame = self.frame();
-        Meta {
+        Meta::of(self.frame(), self.samples_per_pixel())
+    }
+}
+
+impl Meta {
+    /// What is said of a film with so many samples a pixel.
+    pub fn of(frame: &Frame, samples_per_pixel: u32) -> Self {
+        Self {
             seed: frame.seed,
-            samples_per_pixel: self.samples_per_pixel(),
+            samples_per_pixel,
             radiance_exponent: frame.radiance_exponent,
             depth_exponent: frame.depth_exponent,
         }
@@ -78,11 +84,19 @@ pub fn check_target(path: &Path) -> Result<Format> {
 ///
 /// As [`format_of`], or when the file cannot be written; a file of that name is then as before.
 pub fn write(path: &Path, picture: &Picture, film: &scene::Film, meta: &Meta) -> Result<()> {
-    let bytes = match format_of(path)? {
+    write_file(path, encode(format_of(path)?, picture, film, meta))
+}
+
+/// The bytes of the file of a picture.
+///
+/// # Errors
+///
+/// When the picture is too large for the format.
+pub fn encode(format: Format, picture: &Picture, film: &scene::Film, meta: &Meta) -> io::Result<Vec<u8>> {
+    match format {
         Format::Png => png::encode(picture, film, meta),
         Format::Exr => exr::encode(picture, film, meta),
-    };
-    write_file(path, bytes)
+    }
 }
 
 /// Writes a file whole or not at all.

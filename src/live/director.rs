@@ -89,6 +89,7 @@ fn attempt(
     });
     show.change(|state| {
         state.attempts += 1;
+        state.moved = studio.is_moved();
         state.error = outcome.as_ref().err().cloned();
     });
 }

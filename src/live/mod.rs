@@ -7,10 +7,12 @@
 mod director;
 mod files;
 mod painter;
+mod serve;
 mod show;
 mod studio;
 mod watch;
 
+pub use serve::{About, Address, Server};
 pub use show::{Shot, Show, State};
 pub use studio::{Adjust, Generation, Request, Studio};
 pub use watch::Watch;

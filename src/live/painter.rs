@@ -112,7 +112,13 @@ impl Canvas {
         if let Some(old) = &old.shot {
             picture.fill_gaps(&old.picture);
         }
-        let shot = Arc::new(Shot { generation: self.generation.clone(), picture, spp: progress.spp, rate });
+        let shot = Arc::new(Shot {
+            generation: self.generation.clone(),
+            picture,
+            serial: old.shot.as_ref().map_or(0, |shot| shot.serial) + 1,
+            spp: progress.spp,
+            rate,
+        });
         let latency = self.edited.map(|edited| edited.elapsed().as_secs_f64());
         show.change(|state| {
             if first {

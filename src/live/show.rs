@@ -13,6 +13,8 @@ pub struct Shot {
     pub generation: Arc<Generation>,
     /// What is in the film. Pixels without a sample are those of the shot before, where it has the same size.
     pub picture: Picture,
+    /// Counts from 1: later shots have larger ones.
+    pub serial: u64,
     /// Samples that every pixel has.
     pub spp: u32,
     /// Samples a second of this generation.
@@ -30,6 +32,8 @@ pub struct State {
     pub before: Option<Arc<Shot>>,
     /// What is wrong with the files as they are now.
     pub error: Option<Error>,
+    /// It is looked at from elsewhere than the scene says.
+    pub moved: bool,
     /// Attempts so far, good and bad.
     pub attempts: u64,
     /// Seconds from the edit to the first new pixels of the generation; none when it was no edit.

@@ -90,6 +90,11 @@ impl Studio {
         self.camera = camera;
     }
 
+    /// Whether it is looked at from elsewhere than the scene says.
+    pub fn is_moved(&self) -> bool {
+        self.camera.is_some()
+    }
+
     /// Whether what is shown depends on one of these files, which were edited.
     pub fn touched_by(&mut self, edited: &BTreeSet<PathBuf>) -> bool {
         let of_scene: Vec<PathBuf> = self

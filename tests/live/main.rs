@@ -3,6 +3,7 @@
 
 mod edits;
 mod leaks;
+mod server;
 
 use dapple::gpu::{DeviceChoice, Gpu, validation_from_environment};
 use dapple::live::{Live, Request, State, Studio};

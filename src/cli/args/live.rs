@@ -4,6 +4,7 @@ use super::ReadArgs;
 use crate::cli::parse::{self, Size};
 use clap::Args as ClapArgs;
 use dapple::scene::MAX_SAMPLES;
+use std::net::IpAddr;
 use std::path::PathBuf;
 
 /// `dapple live`.
@@ -30,6 +31,15 @@ pub struct LiveArgs {
     /// How the scene is read
     #[command(flatten)]
     pub read: ReadArgs,
+    /// Port of the page; 0 = any that is free
+    #[arg(long, value_name = "N", default_value_t = 8270, conflicts_with = "no_page")]
+    pub port: u16,
+    /// Address at which the page is served. Another than one of this machine alone needs a token, which is in the URL that is printed
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1", conflicts_with = "no_page")]
+    pub host: IpAddr,
+    /// Open the page in the browser
+    #[arg(long, conflicts_with = "no_page")]
+    pub open: bool,
     /// Serve no page: print only what becomes of each edit
     #[arg(long)]
     pub no_page: bool,
@@ -38,5 +48,6 @@ pub struct LiveArgs {
     pub json: bool,
 }
 
-const LIVE_HELP: &str = "On stdout is a line for each error, as FILE:LINE:COLUMN: error: MESSAGE, and for each edit that was taken over. \
+const LIVE_HELP: &str = "The page shows the picture as it grows. From another machine, go through an SSH tunnel: ssh -L 8270:localhost:8270 MACHINE.\n\
+    On stdout is a line for each error, as FILE:LINE:COLUMN: error: MESSAGE, and for each edit that was taken over. \
     Ctrl-C ends it.";

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Lines on each side.
 const AROUND: u32 = 3;
@@ -11,9 +11,10 @@ const MOST_BYTES: u64 = 16 << 20;
 /// Longer lines are cut.
 const MOST_CHARS: usize = 300;
 
-/// Numbers and texts of the lines around one; none when it is not known, or the file is not there or no text.
-pub(super) fn around(file: &Path, line: u32) -> Vec<(u32, String)> {
-    if line == 0 || !file.is_file() {
+/// Numbers and texts of the lines around one; none when it is not known, or the file is not below one of the folders, or no text.
+pub(super) fn around(file: &Path, line: u32, roots: &[PathBuf]) -> Vec<(u32, String)> {
+    let Ok(file) = file.canonicalize() else { return Vec::new() };
+    if line == 0 || !file.is_file() || !roots.iter().any(|root| file.starts_with(root)) {
         return Vec::new();
     }
     let Ok(file) = File::open(file) else { return Vec::new() };
@@ -36,13 +37,32 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a");
         std::fs::write(&path, "1\n2\n3\n4\n5\n6\n7\n8\n").unwrap();
-        let numbers = |line| around(&path, line).iter().map(|(n, text)| (*n, text.clone())).collect::<Vec<_>>();
+        let roots = [folder.path().canonicalize().unwrap()];
+        let numbers =
+            |line| around(&path, line, &roots).iter().map(|(n, text)| (*n, text.clone())).collect::<Vec<_>>();
         assert_eq!(numbers(5).first(), Some(&(2, "2".into())));
         assert_eq!(numbers(5).last(), Some(&(8, "8".into())));
         assert_eq!(numbers(1).len(), 4);
         assert!(numbers(100).is_empty() && numbers(0).is_empty());
         std::fs::write(&path, b"a\n\xff\n").unwrap();
         assert_eq!(numbers(2).len(), 1);
-        assert!(around(folder.path(), 1).is_empty());
+        assert!(around(folder.path(), 1, &roots).is_empty());
+    }
+
+    #[test]
+    fn files_elsewhere_are_not_shown() {
+        let [inside, outside] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+        let roots = [inside.path().canonicalize().unwrap()];
+        let secret = outside.path().join("secret");
+        std::fs::write(&secret, "1\n2\n").unwrap();
+        assert!(around(&secret, 1, &roots).is_empty());
+        let way = inside.path().join("..").join(outside.path().file_name().unwrap()).join("secret");
+        assert!(way.exists() && around(&way, 1, &roots).is_empty());
+        #[cfg(unix)]
+        {
+            let link = inside.path().join("link");
+            std::os::unix::fs::symlink(&secret, &link).unwrap();
+            assert!(around(&link, 1, &roots).is_empty());
+        }
     }
 }

@@ -12,7 +12,11 @@ use std::io::{self, Write};
 pub(super) fn encode(shot: &Shot, want: &Want) -> io::Result<Vec<u8>> {
     let picture = &shot.picture;
     let window = picture.frame.window;
-    let small = Shrink { width: window.width() as usize, height: window.height() as usize, by: usize::from(want.scale) };
+    let small = Shrink {
+        width: window.width() as usize,
+        height: window.height() as usize,
+        by: usize::from(want.scale),
+    };
     let planes = planes(picture, want.aov, &small);
     // A depth has more digits than a half
     let bytes = if want.aov == Aov::Depth { 4 } else { 2 };

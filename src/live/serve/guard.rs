@@ -30,9 +30,12 @@ impl Guard {
         if asked.origin.is_some_and(|origin| origin.strip_prefix("http://") != Some(host)) {
             return Err("pages of other origins are not answered");
         }
-        let given = asked.query.and_then(|query| query.split('&').find_map(|part| part.strip_prefix("token=")));
+        let given =
+            asked.query.and_then(|query| query.split('&').find_map(|part| part.strip_prefix("token=")));
         match &self.token {
-            Some(token) if !given.is_some_and(|given| same(given, token)) => Err("the token is missing or wrong"),
+            Some(token) if !given.is_some_and(|given| same(given, token)) => {
+                Err("the token is missing or wrong")
+            }
             _ => Ok(()),
         }
     }
@@ -69,10 +72,17 @@ mod tests {
             let own = format!("http://{host}");
             assert_eq!(guard.check(&asked(host, Some(&own), None)), Ok(()), "{host}");
         }
-        for host in ["evil.example:8270", "127.0.0.1.evil.example", "192.168.0.7:8270", "", "localhost.evil"] {
+        for host in ["evil.example:8270", "127.0.0.1.evil.example", "192.168.0.7:8270", "", "localhost.evil"]
+        {
             assert!(guard.check(&asked(host, None, None)).is_err(), "{host}");
         }
-        for origin in ["http://evil.example", "https://localhost:8270", "null", "http://localhost:1", "http://localhost:8270.evil"] {
+        for origin in [
+            "http://evil.example",
+            "https://localhost:8270",
+            "null",
+            "http://localhost:1",
+            "http://localhost:8270.evil",
+        ] {
             assert!(guard.check(&asked("localhost:8270", Some(origin), None)).is_err(), "{origin}");
         }
         assert!(guard.check(&Asked::default()).is_err());
@@ -84,7 +94,9 @@ mod tests {
         let check = |query| guard.check(&asked("studio:8270", Some("http://studio:8270"), query));
         assert_eq!(check(Some("token=abc")), Ok(()));
         assert_eq!(check(Some("x=1&token=abc")), Ok(()));
-        for query in [None, Some(""), Some("token=ab"), Some("token=abcd"), Some("token="), Some("atoken=abc")] {
+        for query in
+            [None, Some(""), Some("token=ab"), Some("token=abcd"), Some("token="), Some("atoken=abc")]
+        {
             assert!(check(query).is_err(), "{query:?}");
         }
         assert!(guard.check(&asked("studio:8270", Some("http://evil"), Some("token=abc"))).is_err());

@@ -4,6 +4,7 @@ use crate::live::{Generation, Shot, State};
 use crate::scene::{Camera, ToneCurve};
 use crate::{Error, film};
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// From the page.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -152,12 +153,12 @@ pub(super) struct Probe {
 }
 
 impl Now {
-    pub fn of(state: &State, device: &str, wanted_spp: u32) -> Self {
+    pub fn of(state: &State, device: &str, wanted_spp: u32, roots: &[PathBuf]) -> Self {
         let mut now = Self {
             attempts: state.attempts,
             wanted_spp,
             device: device.to_owned(),
-            error: state.error.as_ref().map(Wrong::of),
+            error: state.error.as_ref().map(|error| Wrong::of(error, roots)),
             latency: state.latency,
             serial_before: state.before.as_ref().map_or(0, |shot| shot.serial),
             ..Self::default()
@@ -214,13 +215,13 @@ impl Stand {
 }
 
 impl Wrong {
-    fn of(error: &Error) -> Self {
+    fn of(error: &Error, roots: &[PathBuf]) -> Self {
         let place = error.place.clone();
         let (file, line, column) = place.map_or_else(Default::default, |p| (p.file, p.line, p.column));
         Self {
             message: error.message.clone(),
             help: error.help.clone(),
-            excerpt: super::excerpt::around(&file, line),
+            excerpt: super::excerpt::around(&file, line, roots),
             file: file.display().to_string(),
             line,
             column,
