@@ -27,7 +27,7 @@ export class Controls {
         // The browser may have kept what was chosen before a reload
         find("aov").value = this.aov;
         find("curve").value = this.#curve;
-        this.expose(0);
+        this.#write();
     }
 
     show(aov) {
@@ -44,11 +44,15 @@ export class Controls {
     expose(to) {
         const { min, max } = find("stops");
         this.stops = Math.min(Math.max(to, Number(min)), Number(max));
+        this.#write();
+        this.#changed();
+    }
+
+    #write() {
         find("stops").value = String(this.stops);
         find("stops").setAttribute("aria-valuetext", `${stopsText(this.stops)} stops`);
         find("stops-reset").textContent = stopsText(this.stops);
         find("stops-reset").setAttribute("aria-label", `${stopsText(this.stops)} stops: back to 0`);
-        this.#changed();
     }
 
     /** Brighter or darker by one step. */

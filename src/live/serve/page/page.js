@@ -99,11 +99,9 @@ async function received(message) {
 
 /** Something else is wanted. */
 function choose() {
-    if (controls && wipe) {
-        asker.want(controls.aov, wipe.on);
-        find("wipe").setAttribute("aria-pressed", String(wipe.on));
-        redraw();
-    }
+    asker.want(controls.aov, wipe.on);
+    find("wipe").setAttribute("aria-pressed", String(wipe.on));
+    redraw();
 }
 
 function redraw() {

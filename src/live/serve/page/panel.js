@@ -42,7 +42,7 @@ export function numbers(state, transfer) {
         }
         const words = state.generation === 0 ? ["no picture yet"] : [
             `${state.spp} of ${state.wanted_spp} samples a pixel`,
-            `${many(state.rate)}samples/s`,
+            `${many(state.rate)} samples/s`,
             `generation ${state.generation}`,
             ...(state.latency === null ? [] : [`${seconds(state.latency)} from edit to pixels`]),
             ...(state.camera?.moved ? ["looked at from elsewhere"] : []),
@@ -63,7 +63,7 @@ export function links(there, query) {
     }
 }
 
-function detail(state, { shown, rate }) {
+function detail(state, { shown, rate: bytes }) {
     const times = state.times ?? {};
     const rows = [
         ["device", state.device],
@@ -71,7 +71,7 @@ function detail(state, { shown, rate }) {
         ["attempts", String(state.attempts)],
         ["picture", `${state.size.join(" × ")} pixels`],
         ["samples a pixel", `${state.spp} of ${state.wanted_spp}`],
-        ["samples a second", many(state.rate).trim()],
+        ["samples a second", many(state.rate)],
         ["edit to first pixels", seconds(state.latency)],
         ["read", seconds(times.read), "part"],
         ["prepare", seconds(times.prepare), "part"],
@@ -79,7 +79,7 @@ function detail(state, { shown, rate }) {
         ["of which the driver", seconds(times.driver), "part"],
         ["upload", seconds(times.upload), "part"],
         ["sent at", shown ? (shown.scale === 1 ? "full size" : `1 / ${shown.scale} of the size`) : "–"],
-        ["transfer", rate === null ? "–" : `${many(rate)}B/s`],
+        ["transfer", bytes === null ? "–" : `${many(bytes)}B/s`],
     ];
     find("details").replaceChildren(...rows.flatMap(([name, text, part]) => [
         element("dt", part, name),

@@ -26,12 +26,12 @@ export function vector(values) {
     return values.map(number).join(" ");
 }
 
-/** With k, M and G. */
+/** Three digits that count, with k, M or G: a unit can follow. */
 export function many(value) {
-    const steps = [[1e9, " G"], [1e6, " M"], [1e3, " k"]];
-    const [unit, name] = steps.find(([unit]) => value >= unit) ?? [1, " "];
+    const steps = [[1e9, "G"], [1e6, "M"], [1e3, "k"]];
+    const [unit, name] = steps.find(([unit]) => value >= unit) ?? [1, ""];
     const scaled = value / unit;
-    return `${scaled >= 100 || unit === 1 ? Math.round(scaled) : scaled.toPrecision(3)}${name}`;
+    return `${scaled >= 100 || unit === 1 ? Math.round(scaled) : scaled.toPrecision(3)} ${name}`;
 }
 
 export function seconds(value) {

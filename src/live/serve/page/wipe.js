@@ -33,7 +33,7 @@ export class Wipe {
                 this.#move(to);
             }
         });
-        this.#move(this.place);
+        this.#write();
     }
 
     toggle() {
@@ -51,8 +51,12 @@ export class Wipe {
 
     #move(to) {
         this.place = Math.min(Math.max(to, 0), 1);
+        this.#write();
+        this.#changed();
+    }
+
+    #write() {
         this.#divider.style.left = `${100 * this.place}%`;
         this.#divider.setAttribute("aria-valuenow", String(Math.round(100 * this.place)));
-        this.#changed();
     }
 }

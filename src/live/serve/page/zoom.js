@@ -2,6 +2,7 @@
 
 const LEAST = 1 / 32;
 const MOST = 256;
+const NEARLY_ONE = 1.1;
 /** Pixels of the picture that stay on the canvas. */
 const MARGIN = 40;
 
@@ -22,7 +23,9 @@ export class Zoom {
     }
 
     fit() {
-        this.zoom = Math.min(this.#canvas[0] / this.#size[0], this.#canvas[1] / this.#size[1]);
+        const fits = Math.min(this.#canvas[0] / this.#size[0], this.#canvas[1] / this.#size[1]);
+        // A little more than 1 would double some rows and not others
+        this.zoom = fits > 1 && fits < NEARLY_ONE ? 1 : fits;
         this.pan = [0, 1].map((axis) => (this.#canvas[axis] - this.zoom * this.#size[axis]) / 2);
         this.#fits = true;
     }
