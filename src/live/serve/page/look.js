@@ -43,7 +43,7 @@ export function slide({ position, target, up }, right, above) {
     return { position: add(position, move), target: add(target, move), up };
 }
 
-/** Sends where to look from, no faster than pictures come of it. */
+/** Says where to look from and what to focus on, no faster than pictures come of it. */
 export class Look {
     #send;
     #state = null;
@@ -74,7 +74,13 @@ export class Look {
     /** Back to where the scene says. */
     reset() {
         this.forget();
-        this.#send({ look: null });
+        this.#say({ look: null });
+    }
+
+    /** Focuses on what is seen in a pixel. */
+    focus(pixel) {
+        this.forget();
+        this.#say({ focus: pixel });
     }
 
     /** Steps that are not sent are dropped. */
@@ -103,10 +109,16 @@ export class Look {
 
     #flush() {
         if (this.#sent === null) {
+            this.#unsent = false;
+            this.#say({ look: this.#wanted });
+        }
+    }
+
+    #say(message) {
+        if (this.#state) {
             const timer = setTimeout(() => this.#came(), PATIENCE);
             this.#sent = { generation: this.#state.generation, attempts: this.#state.attempts, timer };
-            this.#unsent = false;
-            this.#send({ look: this.#wanted });
+            this.#send(message);
         }
     }
 }

@@ -162,7 +162,7 @@ function focus(point) {
     const pixel = pixelAt(point);
     controls.arm(false);
     if (pixel && state?.camera?.lens) {
-        send({ focus: pixel });
+        look.focus(pixel);
     }
 }
 

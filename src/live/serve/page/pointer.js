@@ -61,8 +61,6 @@ export function listen(canvas, on) {
         if (drag) {
             return;
         }
-        canvas.focus({ preventScroll: true });
-        event.preventDefault();
         if (event.button === 0 && !space && (event.altKey || on.armed())) {
             on.focus(point(event));
             return;
@@ -90,6 +88,8 @@ export function listen(canvas, on) {
     canvas.addEventListener("pointerup", release);
     canvas.addEventListener("pointercancel", release);
     canvas.addEventListener("pointerleave", () => on.hover(null));
+    // The middle button would scroll by itself
+    canvas.addEventListener("mousedown", (event) => event.button === 1 && event.preventDefault());
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("wheel", (event) => {
         event.preventDefault();
