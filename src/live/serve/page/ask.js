@@ -2,8 +2,10 @@
 
 import { Pace } from "./pace.js";
 
-/** A picture that was not followed by another for so long, in milliseconds, has stopped to change. */
+/** A picture that was not followed by another for so long, in milliseconds, has stopped to change … */
 const STILL = 1500;
+/** … and for so many times what it takes to fetch the whole, which keeps others waiting. */
+const PATIENCE = 3;
 
 /** Knows what the server has and what the page has, and asks for the difference. */
 export class Asker {
@@ -32,8 +34,6 @@ export class Asker {
     know(state) {
         if (state.serial !== this.#state?.serial) {
             this.#changed = performance.now();
-            clearTimeout(this.#timer);
-            this.#timer = setTimeout(() => this.next(), STILL + 10);
         }
         const [x0, y0, x1, y1] = state.window;
         if (state.serial > 0) {
@@ -93,12 +93,21 @@ export class Asker {
             this.#pending = { ...asked, at: performance.now() };
             this.#send({ frame: asked });
         }
+        clearTimeout(this.#timer);
+        if (this.#stillIn > 0) {
+            this.#timer = setTimeout(() => this.next(), this.#stillIn + 10);
+        }
+    }
+
+    /** Milliseconds after which the picture has stopped to change. */
+    get #stillIn() {
+        return this.#changed + Math.max(STILL, PATIENCE * 1000 * this.pace.whole) - performance.now();
     }
 
     #choose() {
         const { now } = this.have;
         const rests = now?.serial === this.#state.serial
-            && (this.#state.spp >= this.#state.wanted_spp || performance.now() - this.#changed >= STILL);
+            && (this.#state.spp >= this.#state.wanted_spp || this.#stillIn <= 0);
         const scale = rests ? 1 : this.pace.scale;
         const whole = now?.aov === this.wanted.aov && now.scale <= scale;
         const newest = whole && now.serial === this.#state.serial;

@@ -45,7 +45,6 @@ export function numbers(state, transfer) {
             `${many(state.rate)} samples/s`,
             `generation ${state.generation}`,
             ...(state.latency === null ? [] : [`${seconds(state.latency)} from edit to pixels`]),
-            ...(state.camera?.moved ? ["looked at from elsewhere"] : []),
         ];
         parts.push(...words, state.device);
         detail(state, transfer);
