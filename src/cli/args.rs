@@ -268,6 +268,9 @@ pub struct RenderArgs {
     /// Folder of shaders that come before those of the program
     #[arg(long, value_name = "DIR")]
     pub shaders: Option<PathBuf>,
+    /// Show the picture as it grows in tev, which runs already
+    #[arg(long, value_name = "HOST:PORT")]
+    pub display: Option<String>,
     /// How the scene is read
     #[command(flatten)]
     pub read: ReadArgs,

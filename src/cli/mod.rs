@@ -11,6 +11,7 @@ mod console;
 mod convert;
 mod devices;
 mod diff;
+mod display;
 mod event;
 mod job;
 mod lens;

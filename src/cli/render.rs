@@ -2,6 +2,7 @@
 
 use super::args::RenderArgs;
 use super::console::{Console, Step};
+use super::display::Display;
 use super::event::{Event, Where};
 use super::job::Job;
 use super::stop::{Reason, Stop};
@@ -9,7 +10,7 @@ use super::{Failure, pixel, repeat};
 use dapple::Result;
 use dapple::film::{self, Film};
 use dapple::gpu::{DeviceType, Gpu};
-use dapple::render::{Next, Options, Progress, Renderer};
+use dapple::render::{Accumulation, Next, Options, Progress, Renderer};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -28,6 +29,7 @@ pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
             console.note(&format!("warning: {warning}"));
         }
     }
+    let mut display = display(args, &job)?;
     let gpu = Arc::new(Gpu::open(&job.device)?);
     let info = gpu.info();
     if info.kind == DeviceType::Cpu {
@@ -39,7 +41,7 @@ pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
         .map_err(|error| job.compiler.sources().locate(error))?;
     let start = Instant::now();
     let mut watch = Watch::new(&job, &stop, console);
-    let outcome = renderer.render(job.first_sample, job.spp, &mut |p| watch.step(p));
+    let outcome = paint(&renderer, &job, &mut watch, display.as_mut());
     let (sound, reason) = (watch.sound, watch.reason);
     console.clear_bar();
     let film = outcome.map_err(|error| Failure {
@@ -47,7 +49,39 @@ pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
         repeat: Some(repeat::from_sample(job.first_sample.saturating_add(sound.spp))),
     })?;
     deliver(&job, &film, reason, start.elapsed(), console)?;
+    if let Some(Err(error)) = display.map(|display| display.finish(film.resolve())) {
+        // The picture is written: that nobody could watch is no failure
+        console.note(&format!("warning: {error}"));
+    }
     Ok(())
+}
+
+/// The viewer that is to show the picture as it grows.
+fn display(args: &RenderArgs, job: &Job) -> Result<Option<Display>> {
+    let name = args.scene.file_stem().unwrap_or_default().to_string_lossy();
+    args.display.as_ref().map(|address| Display::connect(address, &name, &job.film)).transpose()
+}
+
+fn paint(
+    renderer: &Renderer,
+    job: &Job,
+    watch: &mut Watch<'_>,
+    display: Option<&mut Display>,
+) -> Result<Film> {
+    let Some(display) = display else {
+        return renderer.render(job.first_sample, job.spp, &mut |progress| watch.step(progress));
+    };
+    let mut picture = Accumulation::new(renderer, job.first_sample, job.spp)?;
+    let mut stop = false;
+    while !(stop && picture.at_pass_end())
+        && let Some(progress) = picture.step()?
+    {
+        stop |= watch.step(&progress) == Next::Stop;
+        if display.is_due() {
+            display.show(picture.film()?.resolve());
+        }
+    }
+    picture.into_film()
 }
 
 fn announce(job: &Job, gpu: &Gpu, console: &mut Console) {

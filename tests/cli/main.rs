@@ -9,6 +9,7 @@ mod bench;
 mod checks;
 mod convert;
 mod diff;
+mod display;
 mod errors;
 mod models;
 mod pictures;
