@@ -244,6 +244,8 @@ fn others_are_refused() {
     };
     assert_eq!(status("/"), 403);
     assert_eq!(status("/picture.png?token=0"), 403);
+    assert_eq!(status("/socket"), 403);
+    assert_eq!(status("/page.js"), 200);
     assert_eq!(status(&format!("/{query}")), 200);
     assert_eq!(status(&format!("/picture.png{query}")), 200);
 }

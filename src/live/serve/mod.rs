@@ -158,7 +158,11 @@ async fn admit(State(desk): State<Arc<Desk>>, request: Request, next: Next) -> R
     };
     let host = said(request.headers(), header::HOST);
     let origin = said(request.headers(), header::ORIGIN);
-    let asked = Asked { host: host.as_deref(), origin: origin.as_deref(), query: request.uri().query() };
+    let uri = request.uri();
+    // Scripts and styles of the page are asked for by the browser, which adds no token
+    let public =
+        uri.path().strip_prefix('/').is_some_and(|name| !name.is_empty() && page::file(name).is_some());
+    let asked = Asked { host: host.as_deref(), origin: origin.as_deref(), query: uri.query(), public };
     match desk.guard.check(&asked) {
         Ok(()) => next.run(request).await,
         Err(why) => (StatusCode::FORBIDDEN, format!("{why}\n")).into_response(),
