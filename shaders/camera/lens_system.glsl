@@ -26,7 +26,7 @@ CameraRay lens_system_sample(vec2 film_01, vec2 lens_u01, SampleKey key)
     pupil = vec2(pupil.x * along.x - pupil.y * along.y, pupil.x * along.y + pupil.y * along.x);
 #ifdef LENS_DISPERSION
     // One colour a path
-    vec3 color = color_mask(color_pick(sample_1d(key, DIMENSION_WAVELENGTH))) * 3.0;
+    vec3 color = color_mask(COLOR_RED + min(uint(3.0 * sample_1d(key, DIMENSION_WAVELENGTH)), 2u)) * 3.0;
     float inverse_square = dot(color, LENS_INVERSE_SQUARES) / 3.0;
 #else
     vec3 color = vec3(1.0);

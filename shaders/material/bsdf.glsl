@@ -25,7 +25,8 @@ struct Bsdf {
     float through_mean; // what it lets through, when smooth, of light from everywhere
     // And of glass with dispersion
     vec3 indices;       // index of refraction of red, green and blue
-    bool disperses;     // they differ, and the path has all colours
+    vec3 chances;       // of following each colour
+    bool disperses;     // they differ; `ior` is that of the d line
 };
 
 // Where a channel of both colours of a material together is above 1, both are scaled down, so that no energy is made.

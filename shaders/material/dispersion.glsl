@@ -1,6 +1,6 @@
-// Glass that bends each colour in its own way. A colour is a band of wavelengths, and a path has one of each band. An event of a path
-// that still has all colours follows one of them, drawn anew, and the others keep what they bring the same way, by the mean of the
-// densities (Wilkie et al. 2014, section 4.1). Smooth glass sends each another way: from there a path has one colour, with three times its weight.
+// Glass that bends each colour in its own way. A colour is a band of wavelengths, and a path has one of each band. An event follows one of
+// them, drawn by what the path still brings of each, and the others keep what they bring the same way, by the mean of the densities
+// (Wilkie et al. 2014, section 4.1). So no weight grows: smooth glass sends each colour another way, and the path has one from there.
 // Switch: HAS_DISPERSION.
 #include "base/sampling.glsl"
 #include "base/spectrum.glsl"
@@ -20,12 +20,13 @@ vec3 dispersed_indices(float index, float dispersion, float place)
     return max(index + (index - 1.0) * dispersion * bent, vec3(0.01));
 }
 
-// Gives glass the index of the colour of a path, or those of all. `place` is a number of the path.
-void disperse(inout Bsdf b, float dispersion, uint color, float place)
+// Gives glass the indices of the colours of a path, and the chances of following each. `place` is a number of the path.
+void disperse(inout Bsdf b, float dispersion, vec3 throughput, float place)
 {
     b.indices = dispersed_indices(b.ior, dispersion, place);
-    b.disperses = dispersion > 0.0 && color == COLOR_ALL;
-    if (dispersion > 0.0 && color != COLOR_ALL) b.ior = dot(b.indices, color_mask(color));
+    b.disperses = dispersion > 0.0;
+    float sum = throughput.x + throughput.y + throughput.z;
+    b.chances = sum > 0.0 ? throughput / sum : vec3(1.0 / 3.0);
 }
 
 // What smooth glass reflects of each colour.
@@ -58,36 +59,38 @@ float dispersed_pdf(Bsdf b, vec3 wo, vec3 wi)
     float pdf = 0.0;
     uint rounds = b.disperses ? 3u : 1u;
     for (uint i = 0u; i < rounds; ++i) {
-        if (b.disperses) b.ior = dot(b.indices, color_mask(COLOR_RED + i));
-        pdf += bsdf_pdf(b, wo, wi);
+        vec3 mask = color_mask(COLOR_RED + i);
+        if (b.disperses) b.ior = dot(b.indices, mask);
+        pdf += bsdf_pdf(b, wo, wi) * (b.disperses ? dot(b.chances, mask) : 1.0);
     }
-    return pdf / float(rounds);
+    return pdf;
 #else
     return bsdf_pdf(b, wo, wi);
 #endif
 }
 
-// `color` becomes the one that is left of all.
-BsdfSample dispersed_sample(Bsdf b, inout uint color, vec3 wo, float lobe, vec2 u01)
+BsdfSample dispersed_sample(Bsdf b, vec3 wo, float lobe, vec2 u01)
 {
 #ifdef HAS_DISPERSION
-    uint followed = COLOR_RED;
-    if (b.disperses) {
-        followed = color_pick(lobe);
-        lobe = 3.0 * lobe - float(followed - COLOR_RED);
-        b.ior = dot(b.indices, color_mask(followed));
-    }
+    if (!b.disperses) return bsdf_sample(b, wo, lobe, u01);
+    // Where each colour begins
+    vec2 begins = vec2(b.chances.x, b.chances.x + b.chances.y);
+    uint followed = uint(lobe >= begins.x) + uint(lobe >= begins.y && b.chances.z > 0.0);
+    vec3 mask = color_mask(COLOR_RED + followed);
+    float chance = dot(b.chances, mask);
+    lobe = clamp((lobe - dot(vec3(0.0, begins), mask)) / max(chance, 1e-30), 0.0, ONE_MINUS_EPSILON);
+    b.ior = dot(b.indices, mask);
     BsdfSample s = bsdf_sample(b, wo, lobe, u01);
-    if (!b.disperses || max_component(s.weight) <= 0.0) return s;
+    if (max_component(s.weight) <= 0.0) return s;
     if (s.pdf > 0.0) {
         s.pdf = dispersed_pdf(b, wo, s.wi);
+        if (s.pdf <= 0.0) return BSDF_ABSORBED;
         s.weight = dispersed_eval(b, wo, s.wi) * (abs(s.wi.z) / s.pdf);
     } else if (s.through) {
-        color = followed;
-        s.weight *= 3.0 * color_mask(followed);
+        s.weight *= mask / chance;
     } else {
         vec3 reflected = dispersed_mirror(b, wo);
-        s.weight = reflected / mean_component(reflected);
+        s.weight = reflected / dot(b.chances, reflected);
     }
     return s;
 #else

@@ -41,9 +41,6 @@ void main()
 #endif
     ray_store(slot, WaveRay(ray.origin, ray.width, ray.direction, ray.spread));
     uint flags = f.negative ? PATH_NEGATIVE : 0u;
-#ifdef LENS_DISPERSION
-    flags |= color_pick(sample_1d(key, DIMENSION_WAVELENGTH)) << PATH_COLOR_SHIFT;
-#endif
     Path path = Path(ray.weight, 0.0, vec3(0.0), 0u, 0u, flags, frame.camera_medium, 1.0, key);
     path_store(slot, path);
     path_store_medium(slot, path);

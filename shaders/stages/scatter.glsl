@@ -26,8 +26,7 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
 {
     if (last && !bsdf_may_mirror(bsdf)) return false;
     float lobe = sample_1d(path.key, bounce_dimension(path.depth, DIMENSION_LOBE));
-    uint color = COLOR_ALL;
-    BsdfSample s = dispersed_sample(bsdf, color, wo, lobe, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_BSDF)));
+    BsdfSample s = dispersed_sample(bsdf, wo, lobe, sample_2d(path.key, bounce_dimension(path.depth, DIMENSION_BSDF)));
     vec3 wi = basis_to_world(basis, s.wi);
     float side = dot(wi, surface.geometric);
     if (max_component(s.weight) <= 0.0 || !s.through && !may_reflect(surface, side)) return false;
@@ -39,7 +38,6 @@ bool scatter(inout Path path, Surface surface, Bsdf bsdf, Basis basis, vec3 wo, 
     if (!s.through && s.pdf > 0.0) s.weight *= softening(surface, wi);
 #endif
     path.throughput *= s.weight;
-    path.flags |= color << PATH_COLOR_SHIFT;
     path.pdf = s.pdf;
     if (s.pdf > 0.0) path.diffuse_depth += 1u;
 #ifdef HAS_GLASS

@@ -69,7 +69,7 @@ bool shade(uint slot, inout Path path, inout WaveRay ray, uvec4 hit, uint next)
 #ifdef HAS_DISPERSION
     // A lens with dispersion has drawn the colour from the same number: what is left of it is the place in the band
     float place = fract(3.0 * sample_1d(path.key, DIMENSION_WAVELENGTH));
-    disperse(bsdf, material.dispersion, (path.flags & PATH_COLOR) >> PATH_COLOR_SHIFT, place);
+    disperse(bsdf, material.dispersion, path.throughput, place);
 #endif
     vec3 emitted = vec3(0.0);
     if (front || (shining.flags & MATERIAL_TWO_SIDED) != 0u) {

@@ -42,9 +42,6 @@ const uint PATH_COVERED = 1u;     // the camera ray hit something
 const uint PATH_HAS_AOV = 2u;     // its albedo, depth and normal are stored
 const uint PATH_WAITS = 4u;       // its shadow ray is too long for one dispatch
 const uint PATH_NEGATIVE = 8u;    // the pixel filter is below 0 at its place on the film
-// The colour of a path, where glass or a lens has sent each its own way: COLOR_…
-const uint PATH_COLOR = 48u;
-const uint PATH_COLOR_SHIFT = 4u;
 const uint PATH_FLAGS_SHIFT = 2u * PATH_DEPTH_BITS;
 const uint PATH_DEPTH_MASK = (1u << PATH_DEPTH_BITS) - 1u;
 

@@ -95,12 +95,12 @@ pub struct Dielectric {
 impl Dielectric {
     /// No glass bends colours as differently as that; diamond has 55, dense flint glass 20.
     pub const LEAST_ABBE: f32 = 1.0;
-    /// As good as no dispersion.
-    pub const MOST_ABBE: f32 = 1e6;
+    /// Above it there is as good as no dispersion: red and blue are less than 0.0001 apart.
+    pub const MOST_ABBE: f32 = 1e4;
 
-    /// An Abbe number brought into its range; none of a number that is none.
+    /// An Abbe number brought into its range; none of a number that is none, or as good as none.
     pub fn abbe_within(abbe: f32) -> Option<f32> {
-        (abbe > 0.0).then(|| abbe.clamp(Self::LEAST_ABBE, Self::MOST_ABBE))
+        (abbe > 0.0 && abbe <= Self::MOST_ABBE).then(|| abbe.max(Self::LEAST_ABBE))
     }
 }
 

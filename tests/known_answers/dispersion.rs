@@ -81,6 +81,34 @@ fn a_ball_of_flint_in_a_white_room_is_invisible() {
 }
 
 #[test]
+fn balls_of_nearly_smooth_flint_in_a_white_room_are_invisible() {
+    // Six boundaries: colours that part are not to come back with all their weights multiplied
+    let (ior, abbe, white) = (Value::Constant(1.6), Some(ABBE as f32), Vec3::ONE);
+    let roughness = Roughness { squared: true, ..Roughness::alpha(0.0) };
+    let principled = Principled {
+        base_color: Value::Constant(white),
+        transmission: Value::Constant(1.0),
+        roughness,
+        ior,
+        abbe,
+        ..Principled::default()
+    };
+    for surface in [flint(0.002), Surface::Principled(Box::new(principled))] {
+        let mut s = scene(8, 8, 1024);
+        s.render.max_depth = 64;
+        s.camera = look(Vec3::new(0.0, 0.0, 3.0), Vec3::ZERO, 30.0);
+        s.environment = constant_environment(1.0);
+        let m = s.material(surface, None);
+        for i in 0..3 {
+            s.sphere(Vec3::NEG_Z * 2.1 * i as f32, 1.0, m);
+        }
+        let seen = mean(&render(&s));
+        assert!(seen.error.iter().all(|error| *error < 0.01), "{:?}", seen.error);
+        expect_grey(seen, 1.0, 2e-3);
+    }
+}
+
+#[test]
 fn rough_glass_is_as_three_glasses_of_one_index() {
     // The bands are narrow, and what a rough ball does hardly depends on the place in them
     let ball = |surface: Surface| {

@@ -103,7 +103,7 @@ const BSDF: &str = "
         InterfaceInput of = interface_input_unpack(fetch_points(9u));
         return Bsdf(a.x, a.y, vector(1u), vector(2u), vector(3u), uintBitsToFloat(a.z), uintBitsToFloat(a.w), vector(4u).xy,
                     mixed.x, mixed.y, mixed.z, coat.x, coat.yy, vector(7u), coat.z, of.through_table, of.inner_table, of.through_mean,
-                    vec3(uintBitsToFloat(a.z)), false);
+                    vec3(uintBitsToFloat(a.z)), vec3(1.0 / 3.0), false);
     }
 ";
 
