@@ -1,6 +1,6 @@
 // Which picture is asked for next: one at a time, and the next one only when the last one is drawn.
 
-import { Pace } from "./pace.js";
+import { Pace, SCALES } from "./pace.js";
 
 /** A picture that was not followed by another for so long, in milliseconds, has stopped to change … */
 const STILL = 1500;
@@ -19,15 +19,21 @@ export class Asker {
     #busy = false;
     #changed = 0;
     #timer = null;
+    #longest;
+    /** The least scale at which the picture can be drawn. */
+    #finest = 1;
 
-    constructor(send) {
+    /** `longest`: pixels of the longest side that can be drawn. */
+    constructor(send, longest) {
         this.#send = send;
+        this.#longest = longest;
     }
 
     /** A new connection: numbers of another server may begin again. */
     reset() {
         this.have = { now: null, before: null };
         this.#pending = this.#state = null;
+        this.#busy = false;
     }
 
     /** What the server says that it has. */
@@ -38,6 +44,7 @@ export class Asker {
         const [x0, y0, x1, y1] = state.window;
         if (state.serial > 0) {
             this.pace.begin((x1 - x0) * (y1 - y0));
+            this.#finest = SCALES.find((scale) => Math.max(x1 - x0, y1 - y0) <= scale * this.#longest) ?? 8;
         }
         this.#state = state;
     }
@@ -78,7 +85,7 @@ export class Asker {
     get idle() {
         const { now } = this.have;
         return this.#state !== null && !this.#busy && now !== null && now.serial === this.#state.serial
-            && now.aov === this.wanted.aov && now.scale === 1 && !this.#needsBefore(1);
+            && now.aov === this.wanted.aov && now.scale <= this.#finest && !this.#needsBefore(this.#finest);
     }
 
     /** Asks for what is missing, if it is not on its way. */
@@ -108,7 +115,7 @@ export class Asker {
         const { now } = this.have;
         const rests = now?.serial === this.#state.serial
             && (this.#state.spp >= this.#state.wanted_spp || this.#stillIn <= 0);
-        const scale = rests ? 1 : this.pace.scale;
+        const scale = Math.max(rests ? 1 : this.pace.scale, this.#finest);
         const whole = now?.aov === this.wanted.aov && now.scale <= scale;
         const newest = whole && now.serial === this.#state.serial;
         if (this.#needsBefore(scale) && (newest || this.#last === "now")) {

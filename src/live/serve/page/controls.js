@@ -24,9 +24,8 @@ export class Controls {
             changed();
         });
         find("stops").addEventListener("input", (event) => this.expose(Number(event.target.value)));
-        // The browser may have kept what was chosen before a reload
-        find("aov").value = this.aov;
-        find("curve").value = this.#curve;
+        find("aov").replaceChildren(...AOVS.map((name) => new Option(name)));
+        find("curve").replaceChildren(...["scene", ...CURVES].map((name) => new Option(name, name)));
         this.#write();
     }
 

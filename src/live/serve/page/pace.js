@@ -5,7 +5,7 @@ const LONGEST = 0.5;
 const FIRST_PIXELS = 5e5;
 /** Bytes that take hardly longer than one. */
 const SMALL = 5e4;
-const SCALES = [1, 2, 4, 8];
+export const SCALES = [1, 2, 4, 8];
 
 /** Times of pictures, and what follows from them. */
 export class Pace {

@@ -29,22 +29,35 @@ const find = (id) => document.getElementById(id);
 const canvas = find("picture");
 
 let state = null;
-let view = null;
 let scheduled = false;
+/** Counts connections: what came through an old one says nothing of the new one. */
+let connection = 0;
 /** Heads of the pictures that will have been drawn after the next drawing. */
 let fresh = [];
 
+const view = makeView();
 const sides = new Sides();
 const zoom = new Zoom();
 const socket = new Socket({ open, closed, text: said, binary: received });
 const send = (message) => socket.send(message);
-const asker = new Asker(send);
+const asker = new Asker(send, view?.longest ?? Infinity);
 const look = new Look(send);
 const prober = new Prober(send);
 const controls = new Controls(choose);
 const wipe = new Wipe(choose);
 
+function makeView() {
+    try {
+        return new View(canvas, redraw);
+    } catch (error) {
+        find("empty").textContent = `The picture cannot be shown: ${error.message}`;
+        return null;
+    }
+}
+
 function open() {
+    connection += 1;
+    fresh = [];
     trouble.offline(false);
     asker.reset();
     sides.forget();
@@ -80,11 +93,15 @@ function know(now) {
 async function received(message) {
     const head = headOf(message);
     asker.arrived(head, message.byteLength);
+    const from = connection;
     let frame = null;
     try {
         frame = await decode(message);
     } catch (error) {
         trouble.notice(`a picture came that cannot be shown: ${error.message}`);
+    }
+    if (from !== connection) {
+        return;
     }
     // What is no more wanted is dropped
     if (frame && head.aov === controls.aov && (head.which === "now" || wipe.on)) {
@@ -121,7 +138,7 @@ function draw() {
     if (now) {
         zoom.resize(size, sides.wish("now").size);
         controls.zoomed(zoom.zoom);
-        find("empty").hidden = true;
+        find("empty").hidden = view !== null;
     }
     // Planes of two kinds cannot be drawn at once
     const before = wipe.on && sides.before?.head.aov === now?.head.aov ? sides.before : null;
@@ -172,15 +189,16 @@ function place(x, y) {
     return [along(0, box.left), along(1, box.top)];
 }
 
-try {
-    view = new View(canvas, redraw);
-} catch (error) {
-    find("empty").textContent = `The picture cannot be shown: ${error.message}`;
-}
 theme(find("theme"), redraw);
 panel.open();
 keys.listen(table({ controls, wipe, zoom, look, redraw, focus, dialog: find("keys") }), find("keys"));
 listenToPointer(canvas, { zoom, look, redraw, hover, focus, armed: () => controls.armed });
+// Who clicks a button goes on with the picture
+find("bar").addEventListener("click", ({ detail, target }) => {
+    if (detail > 0 && target.closest("button")) {
+        canvas.focus({ preventScroll: true });
+    }
+});
 new ResizeObserver(redraw).observe(canvas);
 choose();
 

@@ -3,6 +3,7 @@
 import { element, many, number, seconds, vector } from "./text.js";
 
 const find = (id) => document.getElementById(id);
+let written = "";
 
 /** Listens to the button of the details. */
 export function open() {
@@ -25,12 +26,18 @@ export function probe(values) {
         ["x y", `${x} ${y}`], ["rgb", vector(rgb)], ["alpha", number(alpha)], ["albedo", vector(albedo)],
         ["normal", vector(normal)], ["depth", number(depth)], ["samples", String(samples)],
     ];
-    line.replaceChildren(...parts.flatMap(([name, text]) => [element("b", "", `${name} `), `${text}   `]));
+    line.replaceChildren(...parts.map(([name, text]) => element("span", "", element("b", "", `${name} `), text)));
     line.title = parts.map(([name, text]) => `${name} ${text}`).join("\n");
 }
 
 /** Shows the state; `transfer`: { shown (head of the picture or null), rate (bytes/s or null), online }. */
 export function numbers(state, transfer) {
+    // Texts that are built again cannot be selected
+    const now = JSON.stringify([state, transfer]);
+    if (now === written) {
+        return;
+    }
+    written = now;
     const line = find("numbers");
     const parts = [];
     if (!transfer.online) {

@@ -28,6 +28,11 @@ export class View {
         this.#build();
     }
 
+    /** Pixels of the longest side of a picture that can be drawn. */
+    get longest() {
+        return this.#gl.getParameter(this.#gl.MAX_TEXTURE_SIZE);
+    }
+
     /** Takes a decoded picture of one side. */
     set(which, frame) {
         this.#frames[which] = frame;
