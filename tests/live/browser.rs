@@ -28,9 +28,9 @@ impl Drop for Browser {
 
 /// Where Chromium is; none where it is not installed, which is a failure in CI.
 fn chromium() -> Option<&'static str> {
-    let found = ["chromium", "chromium-browser", "google-chrome"]
-        .into_iter()
-        .find(|name| Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok());
+    let found = ["chromium", "chromium-browser", "google-chrome"].into_iter().find(|name| {
+        Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
+    });
     if found.is_none() {
         assert!(std::env::var_os("CI").is_none_or(|v| v != "true"), "Chromium is not installed");
         eprintln!("SKIPPED: Chromium is not installed");
@@ -42,7 +42,13 @@ impl Browser {
     fn start(program: &str) -> Self {
         let profile = tempfile::tempdir().unwrap();
         let process = Command::new(program)
-            .args(["--headless=new", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--no-first-run"])
+            .args([
+                "--headless=new",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--enable-unsafe-swiftshader",
+                "--no-first-run",
+            ])
             .args(["--disable-dev-shm-usage", "--hide-scrollbars", "--force-device-scale-factor=1"])
             .args(["--window-size=900,700", "--remote-debugging-port=0"])
             .arg(format!("--user-data-dir={}", profile.path().display()))
@@ -143,7 +149,8 @@ fn the_page_shows_the_render_and_follows_edits() {
     let mut browser = Browser::start(program);
     let [one, two] = [(); 2].map(|()| browser.open(server.url()));
     // Both show all samples, and just the pixels of the render
-    let shot = wait(&live, "8 samples", |state| state.shot.as_ref().is_some_and(|shot| shot.spp == 8)).shot.unwrap();
+    let shot =
+        wait(&live, "8 samples", |state| state.shot.as_ref().is_some_and(|shot| shot.spp == 8)).shot.unwrap();
     for tab in [&one, &two] {
         browser.wait(tab, "dapple.shown && dapple.shown.spp === 8 && dapple.shown.scale === 1");
         for (x, y) in [(0, 0), (8, 6), (15, 11)] {

@@ -1,6 +1,7 @@
 //! A scene that is edited while it is shown: with real files, on a device, under the validation layer where `DAPPLE_VALIDATION` is set.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by a panic, in its helpers too")]
 
+mod browser;
 mod edits;
 mod leaks;
 mod server;

@@ -115,7 +115,7 @@ fn values_are_those_of_the_colours_and_densities_their_mean() {
 
 /// Means of what a colour brings along x, y, z and in all, of reflected and of transmitted light, with their errors.
 fn moments(lobe: &Lobe, wo: [f32; 3], throughput: [f32; 3], sample: &str, seed: u64) -> [[[f64; 2]; 5]; 3] {
-    const COUNT: usize = 200_000;
+    const COUNT: usize = 120_000;
     let mut random = Random(seed);
     let points = (0..COUNT).map(|_| floats(random.f32(), random.f32(), random.f32(), 0.0));
     let (inputs, header) = lobe.inputs(wo, points);
@@ -150,7 +150,9 @@ fn moments(lobe: &Lobe, wo: [f32; 3], throughput: [f32; 3], sample: &str, seed: 
 #[test]
 fn samples_bring_each_colour_what_its_own_glass_brings() {
     let all = "Bsdf b = dispersing(); BsdfSample s = dispersed_sample(b, wo, u.z, u.xy);";
-    for (lobe, throughput) in glasses().iter().flat_map(|lobe| THROUGHPUTS.map(|t| (lobe, t))) {
+    for (lobe, throughput) in
+        glasses().iter().flat_map(|lobe| [(lobe, THROUGHPUTS[0]), (lobe, THROUGHPUTS[1])])
+    {
         for wo in directions() {
             let together = moments(lobe, wo, throughput, all, 1);
             for (c, of_color) in together.into_iter().enumerate().filter(|(c, _)| throughput[*c] > 0.0) {
@@ -185,8 +187,8 @@ fn what_a_path_brings_in_all_does_not_grow() {
         let values = Probe::new().both(&kernel(&header, throughput, body), &inputs, COUNT, COUNT);
         let before: f32 = throughput.iter().sum();
         for after in values.into_iter().map(as_doubles).map(|[r, g, b, _]| r + g + b) {
-            // Radiance is larger inside, by the square of the index
-            let most = if wo[2] < 0.0 { 1.0 } else { f64::from(INDEX + 0.1).powi(2) };
+            // On the way out a path brings more, by the square of the index
+            let most = if wo[2] > 0.0 { 1.0 } else { f64::from(INDEX + 0.1).powi(2) };
             assert!(after <= 1.02 * most * f64::from(before), "{after} after {before}");
         }
     }
