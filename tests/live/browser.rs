@@ -1,6 +1,7 @@
 //! The page in a real browser, headless Chromium, driven through its debugging protocol.
 
 use super::{LIMIT, Room, gpu, wait};
+use base64::Engine as _;
 use dapple::live::{About, Address, Live, Server};
 use serde_json::{Value, json};
 use std::net::{Ipv4Addr, TcpStream};
@@ -146,13 +147,17 @@ fn the_page_shows_the_render_and_follows_edits() {
     let room = Room::new();
     let live = room.live(8);
     let server = serve(&room, &live);
-    let mut browser = Browser::start(program);
-    let [one, two] = [(); 2].map(|()| browser.open(server.url()));
+    // Two at once
+    let mut browsers = [(); 2].map(|()| {
+        let mut browser = Browser::start(program);
+        let tab = browser.open(server.url());
+        (browser, tab)
+    });
     // Both show all samples, and just the pixels of the render
     let shot =
         wait(&live, "8 samples", |state| state.shot.as_ref().is_some_and(|shot| shot.spp == 8)).shot.unwrap();
-    for tab in [&one, &two] {
-        browser.wait(tab, "dapple.shown && dapple.shown.spp === 8 && dapple.shown.scale === 1");
+    for (browser, tab) in &mut browsers {
+        browser.wait(tab, "dapple.idle && dapple.shown.spp === 8 && dapple.shown.scale === 1");
         for (x, y) in [(0, 0), (8, 6), (15, 11)] {
             let seen = browser.value(tab, &format!("Array.from(dapple.pixel({x}, {y}))"));
             let right = shot.picture.rgb[y * 16 + x];
@@ -164,20 +169,39 @@ fn the_page_shows_the_render_and_follows_edits() {
     }
     // A good edit is a new generation in both
     room.edit("scene.toml", "color = 0.2", "color = 0.75");
-    for tab in [&one, &two] {
+    for (browser, tab) in &mut browsers {
         browser.wait(tab, "dapple.shown.generation === 2");
         let corner = browser.value(tab, "dapple.pixel(0, 0)[0]").as_f64().unwrap();
         assert!((corner - 0.75).abs() < 1e-3, "{corner}");
     }
     // A bad one shows its place and keeps the picture
+    let (browser, tab) = &mut browsers[0];
     room.edit("scene.toml", "radius = 1", "radius = -1");
-    browser.wait(&one, "dapple.state.error");
-    let text = browser.value(&one, "document.body.innerText");
+    browser.wait(tab, "dapple.state.error");
+    let text = browser.value(tab, "document.body.innerText");
     let text = text.as_str().unwrap();
     assert!(text.contains("scene.toml:31") && text.contains("must be above 0"), "{text}");
-    assert_eq!(browser.value(&one, "dapple.shown.generation"), 2);
+    assert_eq!(browser.value(tab, "dapple.shown.generation"), 2);
     room.edit("scene.toml", "radius = -1", "radius = 1.5");
-    browser.wait(&one, "!dapple.state.error && dapple.shown.generation === 3");
-    let text = browser.value(&one, "document.body.innerText");
+    browser.wait(tab, "!dapple.state.error && dapple.shown.generation === 3");
+    let text = browser.value(tab, "document.body.innerText");
     assert!(!text.as_str().unwrap().contains("must be above 0"));
+    check_screen(browser, tab, &server);
+}
+
+/// The pixels on the screen against those of the PNG that the server writes.
+fn check_screen(browser: &mut Browser, tab: &Tab, server: &Server) {
+    browser.wait(tab, "dapple.idle && dapple.state.spp === dapple.state.wanted_spp");
+    let png = image::load_from_memory(&super::server::get(server, "/picture.png", "").1).unwrap().to_rgb8();
+    let picture = browser.call(Some(&tab.0), "Page.captureScreenshot", &json!({"format": "png"}));
+    let bytes = base64::engine::general_purpose::STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
+    let screen = image::load_from_memory(&bytes).unwrap().to_rgb8();
+    for (x, y) in [(0, 0), (8, 6), (15, 11), (3, 9)] {
+        let place = browser.value(tab, &format!("dapple.place({x}, {y})"));
+        let [left, top] = [0, 1].map(|axis| place[axis].as_f64().unwrap() as u32);
+        let (seen, right) = (screen.get_pixel(left, top).0, png.get_pixel(x, y).0);
+        for (seen, right) in seen.into_iter().zip(right) {
+            assert!(seen.abs_diff(right) <= 1, "{seen} on the screen, {right} in the file at {x}, {y}");
+        }
+    }
 }

@@ -22,7 +22,7 @@ fn host(server: &Server) -> &str {
 }
 
 /// The status and the body of the answer to a request that is sent as it is.
-fn get(server: &Server, path: &str, headers: &str) -> (u16, Vec<u8>) {
+pub fn get(server: &Server, path: &str, headers: &str) -> (u16, Vec<u8>) {
     let host = host(server);
     let mut stream = TcpStream::connect(host).unwrap();
     let own = if headers.contains("Host:") { String::new() } else { format!("Host: {host}\r\n") };
