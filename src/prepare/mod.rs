@@ -29,6 +29,7 @@ mod trees;
 mod triangles;
 mod units;
 mod variant;
+mod view;
 mod wide;
 
 pub use atlas::Atlas;
@@ -38,6 +39,7 @@ pub(crate) use environment::rows as environment_rows;
 pub use textures::{PreparedTextures, prepare_textures};
 pub use trees::Trees;
 pub use variant::{Stage, defines, stack_size};
+pub use view::View;
 pub use wide::{Leaves, Tree};
 
 use crate::Result;
