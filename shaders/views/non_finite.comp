@@ -24,7 +24,7 @@ void show(inout uvec4 word, inout PixelSums sums)
     vec3 radiance = uintBitsToFloat(word.xyz);
     bool nan = is_nan(radiance.x) || is_nan(radiance.y) || is_nan(radiance.z);
     vec3 shown;
-    if (nan || !is_finite((radiance.x + radiance.y + radiance.z) * frame.radiance_scale)) {
+    if (nan || !is_finite(radiance.x + radiance.y + radiance.z)) {
         shown = nan ? MARK_NAN : MARK_INFINITE;
         sums.left_out += 1u;
         // What denoisers are given may be of the same kind

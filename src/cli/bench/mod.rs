@@ -148,8 +148,7 @@ impl<'a> Bench<'a> {
         scene.film.crop = Some(Rect { x0: x, y0: y, x1: (x + TILE).min(x1), y1: (y + TILE).min(y1) });
         let prepared = prepare::prepare(&scene)?;
         let start = Instant::now();
-        let kernels =
-            Kernels::new(&self.gpu, &mut self.compiler()?, &scene, &prepared, self.options)?;
+        let kernels = Kernels::new(&self.gpu, &mut self.compiler()?, &scene, &prepared, self.options)?;
         let compiled = start.elapsed();
         let renderer = Renderer::new(self.gpu.clone(), kernels, scene, prepared, self.options.slicing)?;
         let start = Instant::now();
