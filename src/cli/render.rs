@@ -229,8 +229,9 @@ impl Summary {
             return;
         }
         if let (Some([x, y]), Some(repeat)) = (left_out_at, repeat) {
+            let fate = if job.view == Some(View::NonFinite) { "marked" } else { "left out" };
             console.note(&format!(
-                "warning: {left_out} of {samples} samples were not finite and are left out, the first of them in pixel \
+                "warning: {left_out} of {samples} samples were not finite and are {fate}, the first of them in pixel \
                  {x},{y}\nrepeat with: {repeat}"
             ));
         }

@@ -30,16 +30,6 @@ fn kernels(backend: Backend) -> Vec<(String, Spirv)> {
             for stage in Stage::ALL {
                 let key = render::key(&scene, &prepared, stage, view, backend);
                 let spirv = compiler.kernel(&key).unwrap_or_else(|e| panic!("{name}: {key}: {e}"));
-                if let Some(folder) = std::env::var_os("SPIRV_DUMP") {
-                    let file = std::path::Path::new(&folder).join(
-                        format!(
-                            "{name}+{stage:?}+{backend:?}{}.spv",
-                            view.map_or(String::new(), |v| format!("+{v:?}"))
-                        )
-                        .replace('/', "_"),
-                    );
-                    std::fs::write(file, bytemuck::cast_slice::<u32, u8>(spirv.words())).unwrap();
-                }
                 found.insert(spirv.words().to_vec(), (format!("{name}: {key}"), spirv));
             }
         }

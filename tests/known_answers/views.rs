@@ -100,7 +100,7 @@ fn normals_are_those_that_shading_sees() {
     s.materials[bumped].detail.bump =
         Some(Bump { texture, height: 0.5, derivative: Derivative::Analytic, curvature: true });
     let flat = s.diffuse(0.5);
-    let mix = s.material(Surface::Mix(Mix { materials: [bumped, flat], amount: Value::Constant(0.5) }), None);
+    let mix = s.material(Surface::Mix(Mix { a: bumped, b: flat, amount: Value::Constant(0.5) }), None);
     s.quad(Vec3::new(-5.0, -5.0, -2.0), Vec3::X * 10.0, Vec3::Y * 10.0, mix);
     let normals = render(&s).normal;
     assert!(normals.iter().any(|n| n[2] < 0.95), "no bump is seen");
