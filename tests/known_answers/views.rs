@@ -47,12 +47,12 @@ fn heat_of(rgb: [f32; 3]) -> f64 {
     (0.210_454_255_3 * l + 0.793_617_785 * m - 0.004_072_046_8 * s) / 0.98
 }
 
-/// Demands a heat of every pixel. What of a colour is below 0 is cut off, so the lightness is not exact.
+/// Demands a heat of every pixel. What of a colour is not in sRGB is cut off, so the lightness is not exact.
 #[track_caller]
 fn expect_heat(picture: &Picture, expected: f64) {
     for (i, rgb) in picture.rgb.iter().enumerate() {
         let found = heat_of(*rgb);
-        assert!((found - expected).abs() < 0.01, "pixel {i}: {rgb:?} is {found}, expected {expected}");
+        assert!((found - expected).abs() < 0.004, "pixel {i}: {rgb:?} is {found}, expected {expected}");
     }
 }
 
@@ -98,12 +98,12 @@ fn normals_are_those_that_shading_sees() {
     let texture = s.picture(Image { width: 8, height: 8, texels }, |_| {});
     let bumped = s.diffuse(0.5);
     s.materials[bumped].detail.bump =
-        Some(Bump { texture, height: 0.5, derivative: Derivative::Analytic, curvature: true });
+        Some(Bump { texture, height: 2.0, derivative: Derivative::Analytic, curvature: true });
     let flat = s.diffuse(0.5);
     let mix = s.material(Surface::Mix(Mix { a: bumped, b: flat, amount: Value::Constant(0.5) }), None);
     s.quad(Vec3::new(-5.0, -5.0, -2.0), Vec3::X * 10.0, Vec3::Y * 10.0, mix);
     let normals = render(&s).normal;
-    assert!(normals.iter().any(|n| n[2] < 0.95), "no bump is seen");
+    assert!(normals.iter().any(|n| n[2] < 0.9), "no bump is seen");
     let found = show(&s, View::Normals);
     expect(&found, 2e-6, |x, y| normals[(y * 16 + x) as usize].map(|n| f64::from(0.5 + 0.5 * n)));
 }
@@ -186,7 +186,7 @@ fn the_cost_of_rays_is_what_they_are_tested_against() {
     s.place(mesh, m, Affine3A::IDENTITY);
     let picture = show(&s, View::BvhCost);
     let (corner, middle) = (heat_of(picture.rgb[0]), heat_of(picture.rgb[8 * 16 + 8]));
-    assert!((corner - 0.1).abs() < 0.01, "{corner}");
+    assert!((corner - 0.1).abs() < 0.004, "{corner}");
     // Five levels of four children hold 1,024 leaves of one triangle; leaves of four need four levels and four tests
     assert!(middle > 0.25 && middle < 0.7, "{middle}");
 }
