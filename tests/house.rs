@@ -39,6 +39,7 @@ const ALL: &[&str] = &["*"];
 /// Rooms in `shaders/` and the rooms that each may include.
 const SHADER_ROOMS: &[(&str, &[&str])] = &[
     ("stages", ALL),
+    ("views", ALL),
     ("probe.comp", ALL),
     ("shared", &[]),
     ("base", &[]),

@@ -85,7 +85,7 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Passi
             uint top = stack[walk.depth - 1u];
             walk.current = pop ? top : next;
             walk.depth = pop ? walk.depth - 1u : walk.depth + others;
-            steps += 1u;
+            steps += 1u; COUNT_TEST
 #ifdef ANY_HIT
             if (found) walk.current = REFERENCE_DONE;
 #endif
@@ -100,7 +100,7 @@ bool traverse(vec3 origin, vec3 direction, bool resumed, uint place, inout Passi
             ray = tree_ray(origin, direction);
             walk.instance = NONE;
         }
-        if (enters) {
+        if (enters) { COUNT_TEST
             uint index = fetch_tree((walk.current & LEAF_FIRST_MASK) * ITEM_WORDS).x;
             Instance entered = instance_fetch(index);
             bool move = entered.kind != INSTANCE_SOUP;

@@ -24,3 +24,11 @@ const uint REFERENCE_DONE = 0xffffffffu;
 const uint REFERENCE_LEAVE_INSTANCE = 0xfffffffeu;
 
 bool is_in_tree(uint reference) { return (reference & (LEAF | LEAF_INSTANCE)) != (LEAF | LEAF_INSTANCE); }
+
+// How many nodes, triangles and instances a ray was tested against. Switch of the variant: COUNT_TESTS.
+#ifdef COUNT_TESTS
+uint tests_done = 0u;
+#define COUNT_TEST tests_done += 1u;
+#else
+#define COUNT_TEST
+#endif

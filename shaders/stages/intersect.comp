@@ -1,4 +1,5 @@
 // The nearest surface along the ray of every path in the queue. PARKING: for rays that are too long for one dispatch.
+// COUNT_TESTS: the radiance of the path, which no light reaches in the view of it, is the number of tests so far.
 #include "stages/wave.glsl"
 #include "geometry/traverse.glsl"
 
@@ -24,6 +25,13 @@ void main()
     if (before.w == HIT_LONG) return;
     bool finished = traverse(ray.origin, ray.direction, false, 0u, passing, nearest);
     uint unfinished = HIT_LONG;
+#endif
+#ifdef COUNT_TESTS
+    // A ray that is neither finished nor parked begins again
+    uint done = finished || unfinished == HIT_PARKED ? tests_done : 0u;
+    uvec4 radiance = fetch_paths(slot * PATH_WORDS + 1u);
+    radiance.x = floatBitsToUint(uintBitsToFloat(radiance.x) + float(done));
+    store_paths(slot * PATH_WORDS + 1u, radiance);
 #endif
     uint state = !finished ? unfinished : is_hit(nearest) ? HIT_SURFACE : HIT_MISS;
     float t = finished ? nearest.t : passing.t_min;

@@ -15,7 +15,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 mod live;
+mod view;
 pub use live::LiveArgs;
+pub use view::View;
 
 /// A ray tracer written in GLSL compute shaders on Vulkan
 #[derive(Debug, Parser)]
@@ -236,6 +238,12 @@ pub struct RenderArgs {
     /// Render one pixel and print its values; a picture of it is written only where -o says so
     #[arg(long, value_name = "x,y", value_parser = parse::pixel, conflicts_with = "crop")]
     pub pixel: Option<Pixel>,
+    /// Show something else in place of the picture, to find out about the scene
+    ///
+    /// Rays that meet nothing are black, but for what they cost. Exposure, tone curve and transparency of the scene do not count:
+    /// a PNG has the curve of sRGB, and an EXR the numbers as they are. The picture is called SCENE.NAME.png where -o says nothing.
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub view: Option<View>,
     /// Number of the first sample of each pixel
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub first_sample: u32,

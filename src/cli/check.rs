@@ -128,7 +128,7 @@ fn compile_own_textures(scene: &Scene, prepared: &Prepared) -> Result<()> {
     }
     let mut sources = Sources::embedded();
     sources.set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str())?;
-    let key = render::key(scene, prepared, Stage::Evaluate, Backend::Storage);
+    let key = render::key(scene, prepared, Stage::Evaluate, None, Backend::Storage);
     Compiler::new(sources, CacheOptions::from_environment()).kernel(&key)?;
     Ok(())
 }

@@ -1,11 +1,11 @@
 //! The checked job: the scene is read and changed, the target is known to be writable.
 
-use super::args::{ReadArgs, RenderArgs};
+use super::args::{ReadArgs, RenderArgs, View};
 use super::parse::{Pixel, Size};
 use dapple::film;
 use dapple::gpu::{DeviceChoice, validation_from_environment};
 use dapple::import::{Warning, read_scene_showing};
-use dapple::scene::{Film, MAX_SAMPLES, Rect, Scene};
+use dapple::scene::{Exposure, Film, MAX_SAMPLES, Rect, Scene, ToneCurve};
 use dapple::shader::{CacheOptions, Compiler, Sources};
 use dapple::{Error, Result};
 use std::path::{Path, PathBuf};
@@ -24,6 +24,8 @@ pub struct Job {
     pub target: Option<PathBuf>,
     /// The one pixel whose values are printed.
     pub pixel: Option<Pixel>,
+    /// What is shown in place of the picture.
+    pub view: Option<View>,
     pub first_sample: u32,
     pub device: DeviceChoice,
     pub compiler: Compiler,
@@ -39,6 +41,9 @@ impl Job {
         };
         let (mut scene, warnings) = read(&args.scene, &args.read)?;
         set_window(&mut scene.film, args.size, args.crop, args.pixel)?;
+        if args.view.is_some() {
+            show_as_it_is(&mut scene.film);
+        }
         scene.render.spp = args.spp.unwrap_or(scene.render.spp);
         scene.render.seed = args.seed.unwrap_or(scene.render.seed);
         check_samples(args.first_sample, scene.render.spp)?;
@@ -50,6 +55,7 @@ impl Job {
             warnings,
             target,
             pixel: args.pixel,
+            view: args.view,
             first_sample: args.first_sample,
             device: DeviceChoice {
                 wanted: args.device.clone(),
@@ -88,20 +94,28 @@ fn target(args: &RenderArgs) -> Result<Option<PathBuf>> {
     let target = match &args.output {
         Some(file) => file.clone(),
         None if args.pixel.is_some() => return Ok(None),
-        None => default_target(&args.scene)?,
+        None => default_target(&args.scene, args.view)?,
     };
     film::check_target(&target)?;
     Ok(Some(target))
 }
 
-/// Name of the scene with `.png`, in the current folder.
-fn default_target(scene: &Path) -> Result<PathBuf> {
+/// Name of the scene, and of the view, with `.png`, in the current folder.
+fn default_target(scene: &Path, view: Option<View>) -> Result<PathBuf> {
     let stem = scene.file_stem().ok_or_else(|| {
         Error::scene("this names no scene file").in_file(scene).help("give the path of a scene file")
     })?;
     let mut name = stem.to_owned();
+    if let Some(view) = view {
+        name.push(format!(".{}", view.name()));
+    }
     name.push(".png");
     Ok(PathBuf::from(name))
+}
+
+/// The colours of a view are no light: no exposure and no look of a film changes them.
+fn show_as_it_is(film: &mut Film) {
+    (film.exposure, film.tone_curve, film.transparent) = (Exposure::default(), ToneCurve::Srgb, false);
 }
 
 /// Changes size and window, and sees to it that the window is inside the picture.
@@ -177,8 +191,10 @@ mod tests {
 
     #[test]
     fn the_picture_is_named_after_the_scene() {
-        assert_eq!(default_target(Path::new("a/b.c.toml")).unwrap(), Path::new("b.c.png"));
-        default_target(Path::new("..")).unwrap_err();
+        let of = |view| default_target(Path::new("a/b.c.toml"), view).unwrap();
+        assert_eq!(of(None), Path::new("b.c.png"));
+        assert_eq!(of(Some(View::BvhCost)), Path::new("b.c.bvh-cost.png"));
+        default_target(Path::new(".."), None).unwrap_err();
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! `dapple render`.
 
-use super::args::RenderArgs;
+use super::args::{RenderArgs, View};
 use super::console::{Console, Step};
 use super::display::Display;
 use super::event::{Event, Where};
@@ -37,7 +37,8 @@ pub fn run(args: &RenderArgs, console: &mut Console) -> Result<(), Failure> {
     }
     announce(&job, &gpu, console);
     let scene = std::mem::take(&mut job.scene);
-    let renderer = Renderer::open(gpu.clone(), &mut job.compiler, scene, Options::of(&gpu))
+    let options = Options { view: job.view.map(Into::into), ..Options::of(&gpu) };
+    let renderer = Renderer::open(gpu.clone(), &mut job.compiler, scene, options)
         .map_err(|error| job.compiler.sources().locate(error))?;
     let start = Instant::now();
     let mut watch = Watch::new(&job, &stop, console);
@@ -198,7 +199,9 @@ fn deliver(
         pixel::print(&picture, place, console)?;
     }
     let left_out = film.left_out();
-    let samples = picture.samples.iter().map(|&n| u64::from(n)).sum::<u64>() + left_out;
+    // The view of them has them in the picture
+    let apart = if job.view == Some(View::NonFinite) { 0 } else { left_out };
+    let samples = picture.samples.iter().map(|&n| u64::from(n)).sum::<u64>() + apart;
     let wanted = job.spp;
     // A signal during the last pass stops nothing.
     let whole = job.film.window().area() * u64::from(wanted);
@@ -226,8 +229,9 @@ impl Summary {
             return;
         }
         if let (Some([x, y]), Some(repeat)) = (left_out_at, repeat) {
+            let fate = if job.view == Some(View::NonFinite) { "marked" } else { "left out" };
             console.note(&format!(
-                "warning: {left_out} of {samples} samples were not finite and are left out, the first of them in pixel \
+                "warning: {left_out} of {samples} samples were not finite and are {fate}, the first of them in pixel \
                  {x},{y}\nrepeat with: {repeat}"
             ));
         }

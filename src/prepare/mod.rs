@@ -30,6 +30,7 @@ mod triangles;
 mod units;
 mod variant;
 mod variants;
+mod view;
 mod wide;
 
 pub use atlas::Atlas;
@@ -40,6 +41,7 @@ pub use textures::{PreparedTextures, prepare_textures};
 pub use trees::Trees;
 pub use variant::{Stage, defines, stack_size};
 pub use variants::{Variant, Variants, variants};
+pub use view::{View, kernel_file};
 pub use wide::{Leaves, Tree};
 
 use crate::Result;

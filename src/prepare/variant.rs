@@ -1,6 +1,6 @@
 //! Which switches a kernel is compiled with, for a scene.
 
-use super::{Features, Prepared};
+use super::{Features, Prepared, View};
 use crate::layout::{
     Backend, INPUT_EMISSION, LIGHT_CYLINDER, LIGHT_DISK, LIGHT_DISK_PART, LIGHT_DISTANT, LIGHT_PATCH,
     LIGHT_POINT, LIGHT_PROJECTION, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPHERE_PART, LIGHT_SPOT, LIGHT_TRIANGLE,
@@ -160,11 +160,13 @@ fn has_time(features: &Features, stage: Stage) -> bool {
     }
 }
 
-/// The switches of a stage: only those that its files ask for, so that a scene edit compiles only what it touches.
+/// The switches of a stage, or of the kernel of a view that stands for it: only those that its files ask for, so that a scene edit
+/// compiles only what it touches.
 pub fn defines(
     scene: &Scene,
     prepared: &Prepared,
     stage: Stage,
+    view: Option<View>,
     backend: Backend,
 ) -> BTreeMap<String, String> {
     let mut all = BTreeMap::new();
@@ -205,6 +207,8 @@ pub fn defines(
     flag("HAS_TIME", has_time(features, stage));
     flag("HAS_MOTION", features.moves && (stage.traverses() || stage == Stage::Shade));
     flag("MOVING_CAMERA", features.camera_moves && matches!(stage, Stage::Camera | Stage::Shade));
+    let counts = matches!(stage, Stage::Intersect | Stage::IntersectLong);
+    flag("COUNT_TESTS", counts && view == Some(View::BvhCost));
     flag("PARKING", matches!(stage, Stage::IntersectLong | Stage::ShadowLong));
     if stage.traverses() || stage == Stage::Shade {
         flag("HAS_INSTANCES", features.instances);
@@ -221,6 +225,13 @@ pub fn defines(
         flag("HAS_UV1", features.uv1);
     }
     if stage == Stage::Shade {
+        flag("HAS_MIX", features.mix_depth > 0);
+        flag("HAS_FOOTPRINT", features.footprint);
+        flag("HAS_BUMP", features.bump);
+        flag("HAS_NORMAL_MAP", features.normal_map);
+    }
+    let scatters = stage == Stage::Shade && view.is_none_or(|view| view.stage() != stage);
+    if scatters {
         let material = |kind: u32| features.material_kinds & 1 << kind != 0;
         flag("HAS_DIFFUSE", material(MATERIAL_DIFFUSE));
         flag("HAS_DIFFUSE_TRANSMISSION", material(MATERIAL_DIFFUSE_TRANSMISSION));
@@ -235,12 +246,8 @@ pub fn defines(
         flag("HAS_TRANSMISSION", features.transmission);
         flag("HAS_CLEARCOAT", features.clearcoat);
         flag("HAS_SHEEN", features.sheen);
-        flag("HAS_MIX", features.mix_depth > 0);
         flag("HAS_MEDIUM", features.medium);
         flag("HAS_DISPERSION", features.dispersion);
-        flag("HAS_FOOTPRINT", features.footprint);
-        flag("HAS_BUMP", features.bump);
-        flag("HAS_NORMAL_MAP", features.normal_map);
         flag("HAS_METAL_INDEX", features.metal_index);
         flag("ANISOTROPIC", features.anisotropic);
         flag("TEXTURED_EMISSION", features.textured_inputs & 1 << (2 * INPUT_EMISSION) != 0);

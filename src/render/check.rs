@@ -2,7 +2,7 @@
 
 use crate::gpu::examine;
 use crate::layout::{BINDINGS, Backend, Frame, Record as _};
-use crate::prepare::{Stage, variants};
+use crate::prepare::variants;
 use crate::shader::{CacheOptions, Compiler, KernelKey, Sources};
 use crate::{Error, Result};
 use std::collections::{BTreeMap, BTreeSet};
@@ -52,7 +52,7 @@ pub fn check_kernels(sources: &Sources, cache: &CacheOptions) -> Result<Checked>
         .flat_map(|(compiler, variants)| {
             variants.iter().map(move |variant| {
                 let defines = variant.defines.clone();
-                let key = KernelKey { defines, ..KernelKey::new(variant.stage.file()) };
+                let key = KernelKey { defines, ..KernelKey::new(variant.file) };
                 Job { compiler, key, backend: variant.backend }
             })
         })
@@ -62,7 +62,7 @@ pub fn check_kernels(sources: &Sources, cache: &CacheOptions) -> Result<Checked>
         kernels: kernels.len(),
         variants: jobs.len(),
         errors: check_all(&jobs).into_values().collect(),
-        unused: unused(sets.iter().map(|(compiler, _)| compiler.sources())),
+        unused: unused(sets.iter().map(|(compiler, _)| compiler.sources()), &kernels),
     })
 }
 
@@ -140,14 +140,17 @@ fn column(line: &str, message: &str) -> Option<u32> {
 }
 
 /// Files of the folder that stand for none of the program, and to which no kernel leads with any textures.
-fn unused<'a>(trees: impl Iterator<Item = &'a Sources>) -> Vec<(String, Option<String>)> {
+fn unused<'a>(
+    trees: impl Iterator<Item = &'a Sources>,
+    kernels: &BTreeSet<&String>,
+) -> Vec<(String, Option<String>)> {
     let (mut strangers, mut reached) = (Vec::new(), BTreeSet::new());
     for tree in trees {
         strangers = tree.strangers();
         if strangers.is_empty() {
             return strangers;
         }
-        let names = Stage::ALL.into_iter().flat_map(|stage| tree.reachable(stage.file()));
+        let names = kernels.iter().flat_map(|file| tree.reachable(file));
         // A virtual file hides that of the folder
         reached.extend(names.filter(|name| !tree.is_virtual(name)));
     }

@@ -45,7 +45,7 @@ impl Evaluator {
         let features =
             Features { vertex_color: textures.vertex_color, uv1: textures.uv1, ..Features::default() };
         let prepared = Prepared { features, ..Prepared::default() };
-        let kernel = compiler.kernel(&key(scene, &prepared, Stage::Evaluate, backend))?;
+        let kernel = compiler.kernel(&key(scene, &prepared, Stage::Evaluate, None, backend))?;
         let layout = gpu.layout(backend)?;
         let pipeline = gpu.pipeline(&layout, &kernel)?;
         let point_bytes = MOST_POINTS as u64 * u64::from(TexturePoint::WORDS) * WORD_BYTES;

@@ -1,9 +1,10 @@
 //! The kernels of a scene on a device.
 
+use super::Options;
 use crate::Result;
 use crate::gpu::{Command, Gpu, Layout, Pipeline};
 use crate::layout::Backend;
-use crate::prepare::{self, Prepared, Stage};
+use crate::prepare::{self, Prepared, Stage, View};
 use crate::scene::Scene;
 use crate::shader::{Compiler, KernelKey};
 use std::sync::Arc;
@@ -15,9 +16,16 @@ pub struct Kernels {
     pipelines: Vec<(Stage, Arc<Pipeline>)>,
 }
 
-/// The key under which a stage of a scene is compiled.
-pub fn key(scene: &Scene, prepared: &Prepared, stage: Stage, backend: Backend) -> KernelKey {
-    KernelKey { defines: prepare::defines(scene, prepared, stage, backend), ..KernelKey::new(stage.file()) }
+/// The key under which a stage of a scene is compiled, or the kernel of a view that stands for it.
+pub fn key(
+    scene: &Scene,
+    prepared: &Prepared,
+    stage: Stage,
+    view: Option<View>,
+    backend: Backend,
+) -> KernelKey {
+    let defines = prepare::defines(scene, prepared, stage, view, backend);
+    KernelKey { defines, ..KernelKey::new(prepare::kernel_file(stage, view)) }
 }
 
 impl Kernels {
@@ -32,13 +40,13 @@ impl Kernels {
         compiler: &mut Compiler,
         scene: &Scene,
         prepared: &Prepared,
-        backend: Backend,
+        options: Options,
     ) -> Result<Self> {
         compiler.sources_mut().set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str())?;
-        let layout = gpu.layout(backend)?;
+        let layout = gpu.layout(options.backend)?;
         let mut pipelines = Vec::new();
         for stage in Stage::WAVE {
-            let spirv = compiler.kernel(&key(scene, prepared, stage, backend))?;
+            let spirv = compiler.kernel(&key(scene, prepared, stage, options.view, options.backend))?;
             pipelines.push((stage, gpu.pipeline(&layout, &spirv)?));
         }
         Ok(Self { layout, pipelines })

@@ -26,7 +26,7 @@ use crate::Result;
 use crate::film::{self, Film};
 use crate::gpu::{DeviceInfo, DeviceType, Gpu};
 use crate::layout::{Backend, Frame};
-use crate::prepare::{Prepared, Stage};
+use crate::prepare::{Prepared, Stage, View};
 use crate::scene::Scene;
 use std::sync::Arc;
 use std::time::Duration;
@@ -106,12 +106,14 @@ pub struct Options {
     pub backend: Backend,
     /// How the work is cut.
     pub slicing: Slicing,
+    /// What is shown in place of the picture.
+    pub view: Option<View>,
 }
 
 impl Options {
-    /// What suits a device.
+    /// What suits a device: the picture.
     pub fn of(gpu: &Gpu) -> Self {
-        Self { backend: backend_of(gpu), slicing: Slicing::of(gpu) }
+        Self { backend: backend_of(gpu), slicing: Slicing::of(gpu), view: None }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Kernels, Options, Renderer, Uploads, displace};
 use crate::Result;
 use crate::gpu::Gpu;
-use crate::prepare::{self, Trees};
+use crate::prepare::{self, Trees, View};
 use crate::scene::Scene;
 use crate::shader::Compiler;
 use std::sync::Arc;
@@ -69,10 +69,13 @@ impl Renderer {
         let mut clock = Clock(Instant::now());
         displace(&gpu, compiler, &mut scene, options.backend)?;
         let displace_seconds = clock.lap();
-        let prepared = prepare::prepare_again(&scene, &mut kept.trees)?;
+        let mut prepared = prepare::prepare_again(&scene, &mut kept.trees)?;
+        if options.view.is_some() {
+            prepared.radiance_exponent = View::RADIANCE_EXPONENT;
+        }
         let prepare_seconds = clock.lap();
         let before = compiler.stats();
-        let kernels = Kernels::new(&gpu, compiler, &scene, &prepared, options.backend)?;
+        let kernels = Kernels::new(&gpu, compiler, &scene, &prepared, options)?;
         let after = compiler.stats();
         let kernel_seconds = clock.lap();
         let renderer = Self::place(gpu, kernels, scene, prepared, options.slicing, &mut kept.uploads)?;

@@ -217,12 +217,12 @@ fn scene_with_warning() -> String {
 #[test]
 fn samples_that_are_not_finite_are_counted() {
     let room = Room::new();
-    let sound = include_str!("../../shaders/stages/film.comp");
+    let sound = include_str!("../../shaders/stages/film.glsl");
     let line = "vec3 radiance = uintBitsToFloat(word.xyz) * frame.radiance_scale;";
     assert!(sound.contains(line), "the film kernel has changed: choose another line to break");
     std::fs::create_dir_all(room.path("shaders/stages")).unwrap();
     room.write(
-        "shaders/stages/film.comp",
+        "shaders/stages/film.glsl",
         &sound.replace(line, "vec3 radiance = vec3(uintBitsToFloat(0x7fc00000u));"),
     );
     room.run("render scene.toml --shaders shaders")
@@ -236,14 +236,14 @@ fn samples_that_are_not_finite_are_counted() {
 #[test]
 fn the_first_pixel_that_is_not_finite_comes_with_its_command() {
     let room = Room::new();
-    let sound = include_str!("../../shaders/stages/film.comp");
+    let sound = include_str!("../../shaders/stages/film.glsl");
     let line = "vec3 radiance = uintBitsToFloat(word.xyz) * frame.radiance_scale;";
     let broken = "vec3 radiance = uintBitsToFloat(word.xyz) * frame.radiance_scale;
         uvec2 at = slot_place(slot).pixel;
         if (at == uvec2(5u, 7u) || at == uvec2(2u, 9u)) radiance.y = uintBitsToFloat(0x7fc00000u);";
     assert!(sound.contains(line), "the film kernel has changed: choose another line to break");
     std::fs::create_dir_all(room.path("shaders/stages")).unwrap();
-    room.write("shaders/stages/film.comp", &sound.replace(line, broken));
+    room.write("shaders/stages/film.glsl", &sound.replace(line, broken));
     let arguments = "render scene.toml --shaders shaders --crop 1,2,15,12 --first-sample 3 -o a.png";
     let repeat = "dapple render scene.toml --shaders shaders --pixel 5,7 --first-sample 3";
     let ran = room.run(arguments).code(0);
@@ -259,4 +259,19 @@ fn the_first_pixel_that_is_not_finite_comes_with_its_command() {
     room.run(repeat.strip_prefix("dapple ").unwrap()).code(0).err_has("8 of 8 samples were not finite");
     assert_eq!(room.names(), ["scene.toml", "shaders"]);
     assert!(room.run("render scene.toml --json").code(0).event("done")["repeat"].is_null());
+}
+
+#[test]
+fn a_view_is_a_picture_of_its_own() {
+    let room = Room::new();
+    let dark = "--set film.exposure=-9 --set film.tone_curve=agx --set film.transparent=true";
+    room.run(&format!("render scene.toml --view normals {dark} --spp 1 --quiet")).code(0);
+    assert_eq!(room.names(), ["scene.normals.png", "scene.toml"]);
+    let picture = image::open(room.path("scene.normals.png")).unwrap();
+    assert_eq!(picture.color(), image::ColorType::Rgb8);
+    // The floor looks up: 0.5, 1, 0.5 by the curve of sRGB
+    assert_eq!(picture.to_rgb8().get_pixel(0, 11).0, [188, 255, 188]);
+    // One pixel of it, by its values
+    let ran = room.run("render scene.toml --view normals --pixel 0,11 --spp 1 --quiet").code(0);
+    assert!(ran.out.contains("rgb      0.5 1 0.5"), "{}", ran.out);
 }

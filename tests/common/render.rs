@@ -40,10 +40,15 @@ pub fn options() -> Options {
 
 /// A scene on the device.
 pub fn open(scene: &Scene, options: Options) -> Renderer {
+    open_with(sources(), scene, options)
+}
+
+/// The same, with other shaders.
+pub fn open_with(sources: Sources, scene: &Scene, options: Options) -> Renderer {
     // Most tests need the kernels of others: the driver compiles them once
     static KEPT: Mutex<Vec<Kernels>> = Mutex::new(Vec::new());
     // What is compiled is kept on disk
-    let mut compiler = Compiler::new(sources(), CacheOptions::from_environment());
+    let mut compiler = Compiler::new(sources, CacheOptions::from_environment());
     let renderer = Renderer::open(gpu(), &mut compiler, scene.clone(), options).unwrap();
     KEPT.lock().unwrap_or_else(PoisonError::into_inner).push(renderer.kernels().clone());
     renderer

@@ -12,7 +12,7 @@ mod switches;
 use common::probe::{cache, sources};
 use dapple::gpu::examine;
 use dapple::layout::Backend;
-use dapple::prepare::{self, Prepared, Stage};
+use dapple::prepare::{self, Prepared, Stage, View};
 use dapple::render;
 use dapple::shader::{BindingClass, Compiler, Spirv, scan};
 use std::collections::BTreeMap;
@@ -28,10 +28,12 @@ fn kernels(backend: Backend) -> Vec<(String, Spirv)> {
         let mut sources = sources().unwrap();
         sources.set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str()).unwrap();
         let compiler = Compiler::new(sources, cache());
-        for stage in Stage::ALL {
-            let key = render::key(&scene, &prepared, stage, backend);
-            let spirv = compiler.kernel(&key).unwrap_or_else(|e| panic!("{name}: {key}: {e}"));
-            found.insert(spirv.words().to_vec(), (format!("{name}: {key}"), spirv));
+        for view in [None].into_iter().chain(View::ALL.map(Some)) {
+            for stage in Stage::ALL {
+                let key = render::key(&scene, &prepared, stage, view, backend);
+                let spirv = compiler.kernel(&key).unwrap_or_else(|e| panic!("{name}: {key}: {e}"));
+                found.insert(spirv.words().to_vec(), (format!("{name}: {key}"), spirv));
+            }
         }
     }
     let kernels: Vec<_> = found.into_values().collect();

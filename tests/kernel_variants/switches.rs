@@ -46,7 +46,7 @@ fn every_switch_is_on_and_off() {
         let on: Vec<_> = all.iter().filter(set).collect();
         assert!(!on.is_empty(), "no variant has {switch}: add what sets it to src/prepare/variants");
         // A kernel that has it has another variant without, or with another value; numbers of menus are constant
-        let of = |variant: &Variant| (variant.stage, variant.backend);
+        let of = |variant: &Variant| (variant.file, variant.backend);
         let differs = |other: &Variant| {
             on.iter().any(|v| of(v) == of(other) && v.defines.get(switch) != other.defines.get(switch))
         };
@@ -82,7 +82,7 @@ fn every_file_goes_into_a_kernel() {
     for Variants { texture_glsl, kernels } in variants().unwrap() {
         let mut sources = Sources::embedded();
         sources.set_virtual("generated/textures.glsl", texture_glsl).unwrap();
-        let files: BTreeSet<_> = kernels.iter().map(|variant| variant.stage.file()).collect();
+        let files: BTreeSet<_> = kernels.iter().map(|variant| variant.file).collect();
         reached.extend(files.into_iter().flat_map(|file| sources.reachable(file)));
     }
     let missing: Vec<_> = embedded.difference(&reached).collect();
@@ -92,6 +92,6 @@ fn every_file_goes_into_a_kernel() {
 #[test]
 fn no_variant_comes_twice() {
     let all = all();
-    let keys: BTreeSet<_> = all.iter().map(|v| (v.stage.file(), &v.defines)).collect();
+    let keys: BTreeSet<_> = all.iter().map(|v| (v.file, &v.defines)).collect();
     assert_eq!(keys.len(), all.len());
 }

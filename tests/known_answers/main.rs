@@ -38,3 +38,4 @@ mod sides;
 mod sizes;
 mod texture;
 mod traversal;
+mod views;

@@ -148,8 +148,7 @@ impl<'a> Bench<'a> {
         scene.film.crop = Some(Rect { x0: x, y0: y, x1: (x + TILE).min(x1), y1: (y + TILE).min(y1) });
         let prepared = prepare::prepare(&scene)?;
         let start = Instant::now();
-        let kernels =
-            Kernels::new(&self.gpu, &mut self.compiler()?, &scene, &prepared, self.options.backend)?;
+        let kernels = Kernels::new(&self.gpu, &mut self.compiler()?, &scene, &prepared, self.options)?;
         let compiled = start.elapsed();
         let renderer = Renderer::new(self.gpu.clone(), kernels, scene, prepared, self.options.slicing)?;
         let start = Instant::now();
@@ -179,7 +178,7 @@ impl<'a> Bench<'a> {
         let triangles = prepared.triangle_count;
         let (bvh_seconds, cost) = (prepared.bvh_seconds.0, prepared.bvh_cost);
         gpu.take_peak_bytes();
-        let kernels = Kernels::new(gpu, &mut self.compiler()?, &scene, &prepared, options.backend)?;
+        let kernels = Kernels::new(gpu, &mut self.compiler()?, &scene, &prepared, *options)?;
         // Scene and kernels are known to be sound: errors in them were told here and not in another process.
         let caches = Caches::new()?;
         let compile_cold_seconds = caches.seconds(Task::Kernels, name)?;

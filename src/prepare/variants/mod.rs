@@ -7,7 +7,7 @@ mod cameras;
 mod case;
 mod textures;
 
-use super::{Stage, defines, prepare};
+use super::{Stage, View, defines, kernel_file, prepare};
 use crate::Result;
 use crate::layout::Backend;
 use crate::scene::Scene;
@@ -17,8 +17,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A kernel and its switches.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Variant {
-    /// The kernel.
+    /// The stage that it is for.
     pub stage: Stage,
+    /// The kernel.
+    pub file: &'static str,
     /// How it reads.
     pub backend: Backend,
     /// Its switches.
@@ -47,18 +49,27 @@ pub fn variants() -> Result<Vec<Variants>> {
     let mut all = Vec::new();
     for (vertex_color, uv1) in [(true, true), (true, false), (false, true), (false, false)] {
         let texture_glsl = prepare(&textures::scene(vertex_color, uv1))?.texture_glsl;
-        let stages: &[Stage] = if vertex_color && uv1 { &Stage::ALL } else { &[Stage::Evaluate] };
-        all.push(new_ones(texture_glsl, stages, &[Case::all(vertex_color, uv1)], &mut seen));
+        let evaluate = vec![(Stage::Evaluate, None)];
+        let kernels = if vertex_color && uv1 { with_views() } else { evaluate };
+        all.push(new_ones(texture_glsl, &kernels, &[Case::all(vertex_color, uv1)], &mut seen));
     }
     let texture_glsl = prepare(&Scene::default())?.texture_glsl;
-    all.push(new_ones(texture_glsl, &Stage::ALL, &cases(), &mut seen));
+    all.push(new_ones(texture_glsl.clone(), &with_views(), &[Case::default()], &mut seen));
+    let stages = Stage::ALL.map(|stage| (stage, None));
+    all.push(new_ones(texture_glsl, &stages, &cases(), &mut seen));
     Ok(all)
+}
+
+/// All stages, and those that views change.
+fn with_views() -> Vec<(Stage, Option<View>)> {
+    let of_views = View::ALL.into_iter().flat_map(|view| Stage::ALL.map(|stage| (stage, Some(view))));
+    Stage::ALL.into_iter().map(|stage| (stage, None)).chain(of_views).collect()
 }
 
 /// The variants of some cases that are not among those before.
 fn new_ones(
     texture_glsl: String,
-    stages: &[Stage],
+    stages: &[(Stage, Option<View>)],
     cases: &[Case],
     seen: &mut BTreeSet<Variant>,
 ) -> Variants {
@@ -67,9 +78,9 @@ fn new_ones(
         let prepared = case.prepared();
         let backends: &[Backend] =
             if case.storage_alone { &[Backend::Storage] } else { &[Backend::Storage, Backend::Texel] };
-        for (&stage, &backend) in stages.iter().flat_map(|s| backends.iter().map(move |b| (s, b))) {
-            let variant =
-                Variant { stage, backend, defines: defines(&case.scene, &prepared, stage, backend) };
+        for (&(stage, view), &backend) in stages.iter().flat_map(|s| backends.iter().map(move |b| (s, b))) {
+            let defines = defines(&case.scene, &prepared, stage, view, backend);
+            let variant = Variant { stage, file: kernel_file(stage, view), backend, defines };
             if seen.insert(variant.clone()) {
                 kernels.push(variant);
             }
