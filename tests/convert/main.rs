@@ -9,6 +9,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod files;
+mod kept;
 
 use common::references;
 use dapple::Result;
