@@ -33,6 +33,7 @@ pub(super) fn read_obj_model(path: &Path, choice: &ModelChoice, scene: &mut Scen
         colored: !mesh.colors.is_empty(),
         images: HashMap::new(),
     };
+    let mut own_files = BTreeSet::new();
     let worn: BTreeSet<&str> = mesh
         .parts
         .iter()
@@ -51,6 +52,7 @@ pub(super) fn read_obj_model(path: &Path, choice: &ModelChoice, scene: &mut Scen
                 continue;
             };
             maker.path = folder.join(file);
+            own_files.insert(maker.path.clone());
             if !maker.path.exists() {
                 warnings.push(format!("line {line}: there is no material file {}", shown(name.as_bytes())));
                 continue;
@@ -70,10 +72,11 @@ pub(super) fn read_obj_model(path: &Path, choice: &ModelChoice, scene: &mut Scen
     for (part, wears) in mesh.parts.iter_mut().zip(&wears) {
         part.material = Some(known.get(&part.name).copied().filter(|_| *wears).unwrap_or(material));
     }
+    own_files.extend(maker.images.into_keys());
     let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let mesh = scene.meshes.add(name.as_str(), mesh);
     let instance = Instance { name, mesh, material, world_from_object: Affine3A::IDENTITY, at_close: None };
-    Ok(Model { instances: vec![instance], warnings, ..Model::default() })
+    Ok(Model { instances: vec![instance], warnings, files: own_files, ..Model::default() })
 }
 
 /// The files of a `mtllib`: one whose name has blanks, or several.

@@ -103,7 +103,9 @@ impl Assets for Files {
 
     fn model(&mut self, path: &Path, choice: &ModelChoice, scene: &mut Scene) -> Result<Model> {
         self.use_file(path);
-        import::read_model(path, choice, scene)
+        let model = import::read_model(path, choice, scene)?;
+        self.used.extend(model.files.iter().cloned());
+        Ok(model)
     }
 
     fn lens(&mut self, path: &Path, spacing: Spacing) -> Result<LensSystem> {

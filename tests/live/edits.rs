@@ -138,3 +138,33 @@ fn it_can_be_looked_at_from_elsewhere_and_back() {
     let back = wait_for(&live, 4).generation.unwrap();
     assert_eq!(back.camera.position.x, camera.position.x - 1.0);
 }
+
+/// A triangle whose positions are in a file of their own.
+const MODEL: &str = r#"{
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [9, 9, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "m.bin"}]
+}"#;
+
+#[test]
+fn the_files_of_a_model_are_followed() {
+    let room = Room::new();
+    let corners = |side: f32| -> Vec<u8> {
+        [0.0, 0.0, 0.0, side, 0.0, 0.0, 0.0, side, 0.0_f32].iter().flat_map(|x| x.to_le_bytes()).collect()
+    };
+    std::fs::write(room.path("m.bin"), corners(1.0)).unwrap();
+    room.write("m.gltf", MODEL);
+    room.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    room.write("m.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");
+    room.write(
+        "scene.toml",
+        &format!("{}\n[[instance]]\nfile = \"m.gltf\"\n[[instance]]\nfile = \"m.obj\"\n", super::SCENE),
+    );
+    let live = room.live(4);
+    wait_for(&live, 1);
+    std::fs::write(room.path("m.bin"), corners(2.0)).unwrap();
+    wait_for(&live, 2);
+    room.write("m.mtl", "newmtl a\nKd 0.9 0.1 0.1\n");
+    wait_for(&live, 3);
+}

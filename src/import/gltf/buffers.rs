@@ -3,8 +3,9 @@
 use super::json::Json;
 use super::uri;
 use crate::Result;
+use std::collections::BTreeSet;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The bytes of a model, and which of them each view shows.
 pub(super) struct Buffers {
@@ -24,13 +25,18 @@ struct View {
 const STRIDES: Range<usize> = 4..253;
 
 impl Buffers {
-    /// Loads all buffers and checks that all views lie in them. `binary` is what a GLB file brings along.
-    pub fn load(root: &Json<'_>, mut binary: Option<Vec<u8>>, folder: &Path) -> Result<Self> {
+    /// Loads all buffers and checks that all views lie in them. `binary` is what a GLB file brings along; files are noted in `files`.
+    pub fn load(
+        root: &Json<'_>,
+        mut binary: Option<Vec<u8>>,
+        folder: &Path,
+        files: &mut BTreeSet<PathBuf>,
+    ) -> Result<Self> {
         let mut buffers = Vec::new();
         for (i, buffer) in root.list("buffers")?.iter().enumerate() {
             let length = buffer.need("byteLength")?.whole()?;
             let mut bytes = match (buffer.get("uri")?, binary.take().filter(|_| i == 0)) {
-                (Some(uri), _) => uri::read(&uri, folder)?,
+                (Some(uri), _) => uri::read(&uri, folder, files)?,
                 (None, Some(binary)) => binary,
                 (None, None) => {
                     return Err(buffer.error("the buffer has no `uri`, and no part of a GLB file is meant"));

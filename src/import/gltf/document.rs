@@ -9,6 +9,7 @@ use crate::import::file::{read_bytes, shown};
 use crate::{Error, Result};
 use glam::{Vec3, Vec4};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Extensions that are read in full, so that a file may require them.
@@ -53,6 +54,8 @@ impl File {
 pub(super) struct Document<'a> {
     pub root: Json<'a>,
     pub folder: &'a Path,
+    /// Files that were read beside the document.
+    pub files: BTreeSet<PathBuf>,
     pub buffers: Buffers,
     pub accessors: Vec<Accessor>,
     pub budget: Budget,
@@ -67,14 +70,15 @@ impl<'a> Document<'a> {
         let root = Json::root(&file.json);
         check_version(&root)?;
         let left_out = check_extensions(&root)?;
-        let buffers = Buffers::load(&root, binary, &file.folder)?;
+        let mut files = BTreeSet::new();
+        let buffers = Buffers::load(&root, binary, &file.folder, &mut files)?;
         let accessors = root
             .list("accessors")?
             .iter()
             .map(|json| Accessor::read(json, &buffers))
             .collect::<Result<_>>()?;
         let budget = Budget::of(file.bytes.saturating_add(buffers.len()));
-        Ok(Self { root, folder: &file.folder, buffers, accessors, budget, left_out })
+        Ok(Self { root, folder: &file.folder, files, buffers, accessors, budget, left_out })
     }
 
     /// The accessor that a reference names, and its number.

@@ -36,7 +36,7 @@ impl Reader<'_> {
         }
         let json = &images[index];
         let image = match (json.get("uri")?, json.get("bufferView")?) {
-            (Some(uri), _) => decode(&uri::read(&uri, self.document.folder)?),
+            (Some(uri), _) => decode(&uri::read(&uri, self.document.folder, &mut self.document.files)?),
             (None, Some(view)) => {
                 let view = self.document.buffers.view(&view)?;
                 decode(self.document.buffers.bytes(view))

@@ -39,7 +39,8 @@ pub use join::read_gltf_mesh;
 use crate::import::file::shown;
 use crate::scene::{Instance, Light, Scene};
 use crate::{Error, Result};
-use std::path::Path;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 /// What is shown of a model.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -63,6 +64,8 @@ pub struct Model {
     pub lights: Vec<Light>,
     /// What is seen in another way than the file means it.
     pub warnings: Vec<String>,
+    /// Files beside the model that it is made of.
+    pub files: BTreeSet<PathBuf>,
 }
 
 /// Reads a `.gltf` or `.glb` file into a scene.

@@ -136,6 +136,7 @@ impl<'a> Reader<'a> {
             self.look_at_all(&sources)?;
         }
         model.warnings = self.warnings.into_iter().collect();
+        model.files = self.document.files;
         Ok(model)
     }
 

@@ -7,6 +7,7 @@ use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::percent_decode_str;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Padding may be there or not: both are in use.
@@ -15,13 +16,14 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// The bytes that a URI names.
-pub(super) fn read(uri: &Json<'_>, folder: &Path) -> Result<Vec<u8>> {
+/// The bytes that a URI names. A file is noted in `files`.
+pub(super) fn read(uri: &Json<'_>, folder: &Path, files: &mut BTreeSet<PathBuf>) -> Result<Vec<u8>> {
     let text = uri.string()?;
     if let Some(data) = text.strip_prefix("data:") {
         return decode(uri, data);
     }
     let path = folder.join(relative(uri, text)?);
+    files.insert(path.clone());
     read_bytes(&path).map_err(|error| uri.error(format!("{}: {}", shown(text.as_bytes()), error.message)))
 }
 
