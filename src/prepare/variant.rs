@@ -206,7 +206,9 @@ pub fn defines(
     flag("SIGNED_FILTER", stage == Stage::Film && signed);
     flag("HAS_TIME", has_time(features, stage));
     flag("HAS_MOTION", features.moves && (stage.traverses() || stage == Stage::Shade));
-    flag("MOVING_CAMERA", features.camera_moves && matches!(stage, Stage::Camera | Stage::Shade));
+    let scatters = stage == Stage::Shade && view.is_none_or(|view| view.stage() != stage);
+    let relieves = scatters || stage == Stage::Shade && view == Some(View::Normals);
+    flag("MOVING_CAMERA", features.camera_moves && (stage == Stage::Camera || scatters));
     let counts = matches!(stage, Stage::Intersect | Stage::IntersectLong);
     flag("COUNT_TESTS", counts && view == Some(View::BvhCost));
     flag("PARKING", matches!(stage, Stage::IntersectLong | Stage::ShadowLong));
@@ -224,13 +226,12 @@ pub fn defines(
         flag("HAS_VERTEX_COLOR", features.vertex_color);
         flag("HAS_UV1", features.uv1);
     }
-    if stage == Stage::Shade {
+    if relieves {
         flag("HAS_MIX", features.mix_depth > 0);
         flag("HAS_FOOTPRINT", features.footprint);
         flag("HAS_BUMP", features.bump);
         flag("HAS_NORMAL_MAP", features.normal_map);
     }
-    let scatters = stage == Stage::Shade && view.is_none_or(|view| view.stage() != stage);
     if scatters {
         let material = |kind: u32| features.material_kinds & 1 << kind != 0;
         flag("HAS_DIFFUSE", material(MATERIAL_DIFFUSE));
@@ -273,7 +274,7 @@ pub fn defines(
         // Without an environment there is nothing to leave out: one variant less.
         flag("TRANSPARENT_FILM", scene.film.transparent && features.environment);
     }
-    if stage == Stage::Shade {
+    if relieves {
         all.insert("TEXTURED_INPUTS".to_owned(), format!("{}u", features.textured_inputs));
         if features.mix_depth > 0 {
             all.insert("MIX_DEPTH".to_owned(), format!("{}u", features.mix_depth));

@@ -139,14 +139,14 @@ fn errors_in_shaders_name_the_file_of_the_user() {
 #[test]
 fn shaders_of_the_user_keep_to_the_table_of_bindings() {
     let room = Room::new();
-    let sound = include_str!("../../shaders/stages/film.comp");
+    let sound = include_str!("../../shaders/stages/advance.comp");
     let (head, body) = sound.split_once("void main()\n{").unwrap();
     let own = "layout(std430, set = 0, binding = 60) buffer Own { uint g_own[]; };";
     std::fs::create_dir_all(room.path("mine/stages")).unwrap();
-    room.write("mine/stages/film.comp", &format!("{head}{own}\nvoid main()\n{{ g_own[0] = 1u;{body}"));
+    room.write("mine/stages/advance.comp", &format!("{head}{own}\nvoid main()\n{{ g_own[0] = 1u;{body}"));
     room.run("render scene.toml --shaders mine")
         .code(1)
-        .err_has("mine/stages/film.comp")
+        .err_has("mine/stages/advance.comp")
         .err_has("the kernel uses set 0, binding 60 as a storage buffer, but no such binding is bound")
         .err_has("shared/bindings.glsl");
 }

@@ -275,3 +275,20 @@ fn a_view_is_a_picture_of_its_own() {
     let ran = room.run("render scene.toml --view normals --pixel 0,11 --spp 1 --quiet").code(0);
     assert!(ran.out.contains("rgb      0.5 1 0.5"), "{}", ran.out);
 }
+
+#[test]
+fn the_view_of_samples_that_are_not_finite_has_all_of_them() {
+    let room = Room::new();
+    let sound = include_str!("../../shaders/stages/shade.comp");
+    let line = "path.flags |= PATH_COVERED;";
+    assert!(sound.contains(line), "the kernel has changed: choose another line to break");
+    std::fs::create_dir_all(room.path("shaders/stages")).unwrap();
+    let broken = format!("{line} path.radiance.y = uintBitsToFloat(0x7fc00000u);");
+    room.write("shaders/stages/shade.comp", &sound.replace(line, &broken));
+    let arguments = "render scene.toml --shaders shaders --crop 0,10,16,12 -o a.png";
+    room.run(arguments).code(0).err_has("256 of 256 samples were not finite and are left out");
+    let view = format!("{arguments} --view non-finite");
+    room.run(&view).code(0).err_has("256 of 256 samples were not finite and are marked");
+    assert_eq!(image::open(room.path("a.png")).unwrap().to_rgb8().get_pixel(3, 1).0, [255, 0, 255]);
+    assert!(room.run(&format!("{view} --json")).code(0).event("done")["stopped_by"].is_null());
+}

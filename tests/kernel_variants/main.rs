@@ -31,6 +31,9 @@ fn kernels(backend: Backend) -> Vec<(String, Spirv)> {
         for view in [None].into_iter().chain(View::ALL.map(Some)) {
             for stage in Stage::ALL {
                 let key = render::key(&scene, &prepared, stage, view, backend);
+                if view.is_some() && key == render::key(&scene, &prepared, stage, None, backend) {
+                    continue;
+                }
                 let spirv = compiler.kernel(&key).unwrap_or_else(|e| panic!("{name}: {key}: {e}"));
                 found.insert(spirv.words().to_vec(), (format!("{name}: {key}"), spirv));
             }

@@ -2,8 +2,9 @@
 
 use crate::common::render::*;
 use dapple::film::{Film, Picture};
+use dapple::layout::Backend;
 use dapple::prepare::View;
-use dapple::render::{Next, Options};
+use dapple::render::{Next, Options, Slicing};
 use dapple::scene::*;
 use dapple::shader::Sources;
 use glam::{Affine3A, DVec3, Vec3};
@@ -245,6 +246,22 @@ fn samples_that_are_not_finite_are_marked() {
     assert!(view.resolve().samples.iter().all(|&n| n == 1));
     // In the view of the depths they are left out
     assert_eq!(broken_film(Some(View::PathDepth)).left_out(), 128);
+}
+
+#[test]
+fn views_are_the_same_in_both_back_ends_and_slices() {
+    let mut s = with_sphere();
+    (s.render.spp, s.render.sampler) = (4, Sampler::Sobol);
+    let m = s.diffuse(0.5);
+    let mesh = s.meshes.add("box", box_mesh(Vec3::splat(-9.0), Vec3::splat(9.0), true));
+    s.place(mesh, m, Affine3A::IDENTITY);
+    for view in View::ALL {
+        let slicing = Slicing { slots: 4096, ..options().slicing };
+        let [texel, storage] = [Backend::Texel, Backend::Storage]
+            .map(|backend| film_of(&s, Options { backend, slicing, ..showing(view) }));
+        assert!(texel == storage, "{view:?}");
+        assert!(texel == film_of(&s, showing(view)), "{view:?}");
+    }
 }
 
 #[test]
