@@ -116,8 +116,8 @@ fn all_errors_are_told_and_files_that_nothing_reads() {
 
 #[test]
 fn an_include_of_nothing_names_the_line_that_asks_for_it() {
-    let line = "#include \"stages/wave.glsl\"";
-    let files = [("stages/film.comp", line, "#include \"stages/wave.glsl\"\n#include \"base/gone.glsl\"")];
+    let line = "#include \"stages/film.glsl\"";
+    let files = [("stages/film.comp", line, "#include \"stages/film.glsl\"\n#include \"base/gone.glsl\"")];
     let room = room(&files);
     let ran = room.run("shaders check mine --json").code(1);
     let problem = ran.event("problem");

@@ -34,7 +34,7 @@ fn glasses() -> [Lobe; 3] {
 }
 
 /// What a path brings of each colour: alike, not alike, and of one alone.
-const THROUGHPUTS: [[f32; 3]; 3] = [[1.0; 3], [0.8, 0.3, 0.5], [0.0, 2.0, 0.0]];
+const THROUGHPUTS: [[f32; 3]; 3] = [[1.0; 3], [0.8, 0.5, 0.6], [0.0, 2.0, 0.0]];
 
 /// The header of the kernels here: `dispersing` is what each of them asks.
 fn kernel(lobe: &str, throughput: [f32; 3], body: &str) -> String {
@@ -115,7 +115,7 @@ fn values_are_those_of_the_colours_and_densities_their_mean() {
 
 /// Means of what a colour brings along x, y, z and in all, of reflected and of transmitted light, with their errors.
 fn moments(lobe: &Lobe, wo: [f32; 3], throughput: [f32; 3], sample: &str, seed: u64) -> [[[f64; 2]; 5]; 3] {
-    const COUNT: usize = 120_000;
+    const COUNT: usize = 200_000;
     let mut random = Random(seed);
     let points = (0..COUNT).map(|_| floats(random.f32(), random.f32(), random.f32(), 0.0));
     let (inputs, header) = lobe.inputs(wo, points);

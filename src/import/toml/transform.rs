@@ -9,11 +9,13 @@ use glam::{Affine3A, DAffine3, DMat3, DQuat, DVec3, Mat3A};
 
 /// The map of a list of steps; the first step is applied first.
 pub(super) fn transform(item: Item<'_>) -> Result<Affine3A> {
-    let mut whole = DAffine3::IDENTITY;
+    // The first is taken as it is: a product with 1 has no -0
+    let mut whole: Option<DAffine3> = None;
     for step in item.list("a list of steps, such as [{ translate = [0, 1, 0] }]")? {
-        whole = self::step(step)? * whole;
+        let step = self::step(step)?;
+        whole = Some(whole.map_or(step, |whole| step * whole));
     }
-    narrow(&whole).ok_or_else(|| {
+    narrow(&whole.unwrap_or(DAffine3::IDENTITY)).ok_or_else(|| {
         item.error(format!("{} cannot be inverted", item.name())).help("give every axis a size")
     })
 }
