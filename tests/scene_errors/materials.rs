@@ -84,7 +84,7 @@ fn materials() {
             "3:13: `two_sided` needs `emission`; add `emission`",
         ),
         ("[material.m]\nkind = 'principled'\nior = 0.9", "3:7: `ior` is 0.9, must be from 1 to 100"),
-        ("[material.m]\nkind = 'dielectric'\nabbe = 0.5", "3:8: `abbe` is 0.5, must be from 1 to 1000000"),
+        ("[material.m]\nkind = 'dielectric'\nabbe = 0.5", "3:8: `abbe` is 0.5, must be from 1 to 10000"),
         (
             "[material.m]\nkind = 'dielectric'\nthin = true\nabbe = 30",
             "4:8: `abbe` has no meaning for a thin sheet; remove it",
