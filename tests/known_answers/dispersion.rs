@@ -122,7 +122,7 @@ fn rough_glass_is_as_three_glasses_of_one_index() {
     const STRONG: f64 = 6.0;
     // The bands are narrow, and what a rough ball does hardly depends on the place in them
     let ball = |surface: Surface| {
-        let mut s = scene(8, 8, 4096);
+        let mut s = scene(8, 8, 16_384);
         s.render.max_depth = 8;
         s.camera = look(Vec3::new(0.0, 0.0, 4.0), Vec3::ZERO, 20.0);
         let m = s.material(surface, None);
