@@ -83,13 +83,14 @@ fn attempt(
     let outcome = studio.generation().map(Arc::new);
     let (files, tree) = studio.watched();
     let outcome = watch.follow(files, tree).and(outcome);
-    order(match &outcome {
-        Ok(generation) => Order::Paint(generation.clone(), cause),
-        Err(_) => Order::Resume,
-    });
+    // The error is gone before the first pixels are there
     show.change(|state| {
         state.attempts += 1;
         state.moved = studio.is_moved();
         state.error = outcome.as_ref().err().cloned();
+    });
+    order(match &outcome {
+        Ok(generation) => Order::Paint(generation.clone(), cause),
+        Err(_) => Order::Resume,
     });
 }

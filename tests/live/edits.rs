@@ -50,7 +50,7 @@ fn a_file_of_the_shaders_compiles_the_kernels_again_that_include_it() {
         // A number that no other run has, so that nothing is found on disk
         let mark = format!("\nconst float UNIQUE_{}_{number} = 1.0;\n", std::process::id());
         let text = std::fs::read_to_string(room.path("shaders").join(name)).unwrap();
-        room.write(&format!("shaders/{name}"), &(text + &mark));
+        room.write(&format!("shaders/{name}"), text + &mark);
         let edited = [room.path("shaders").canonicalize().unwrap().join(name)].into();
         (studio.touched_by(&edited), studio.generation().unwrap().opened.kernels)
     };
@@ -153,17 +153,17 @@ fn the_files_of_a_model_are_followed() {
     let corners = |side: f32| -> Vec<u8> {
         [0.0, 0.0, 0.0, side, 0.0, 0.0, 0.0, side, 0.0_f32].iter().flat_map(|x| x.to_le_bytes()).collect()
     };
-    std::fs::write(room.path("m.bin"), corners(1.0)).unwrap();
+    room.write("m.bin", corners(1.0));
     room.write("m.gltf", MODEL);
     room.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
     room.write("m.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");
     room.write(
         "scene.toml",
-        &format!("{}\n[[instance]]\nfile = \"m.gltf\"\n[[instance]]\nfile = \"m.obj\"\n", super::SCENE),
+        format!("{}\n[[instance]]\nfile = \"m.gltf\"\n[[instance]]\nfile = \"m.obj\"\n", super::SCENE),
     );
     let live = room.live(4);
     wait_for(&live, 1);
-    std::fs::write(room.path("m.bin"), corners(2.0)).unwrap();
+    room.write("m.bin", corners(2.0));
     wait_for(&live, 2);
     room.write("m.mtl", "newmtl a\nKd 0.9 0.1 0.1\n");
     wait_for(&live, 3);

@@ -81,19 +81,25 @@ impl Room {
         self.folder.path().join(name)
     }
 
-    fn write(&self, name: &str, text: &str) {
-        std::fs::write(self.path(name), text).unwrap();
+    /// Saves a file in one step, so that nobody finds half of it.
+    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        let aside = self.path("aside");
+        std::fs::write(&aside, bytes).unwrap();
+        std::fs::rename(aside, self.path(name)).unwrap();
     }
 
     fn paint(&self, name: &str, grey: u8) {
-        image::GrayImage::from_pixel(2, 2, image::Luma([grey])).save(self.path(name)).unwrap();
+        let mut file = std::io::Cursor::new(Vec::new());
+        let picture = image::GrayImage::from_pixel(2, 2, image::Luma([grey]));
+        picture.write_to(&mut file, image::ImageFormat::Png).unwrap();
+        self.write(name, file.into_inner());
     }
 
     /// Puts another text in the place of one that is there.
     fn edit(&self, name: &str, from: &str, to: &str) {
         let text = std::fs::read_to_string(self.path(name)).unwrap();
         assert!(text.contains(from), "{name} has no `{from}`");
-        self.write(name, &text.replacen(from, to, 1));
+        self.write(name, text.replacen(from, to, 1));
     }
 
     fn request(&self, cache: CacheOptions) -> Request {
