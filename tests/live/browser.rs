@@ -177,15 +177,12 @@ fn the_page_shows_the_render_and_follows_edits() {
     // A bad one shows its place and keeps the picture
     let (browser, tab) = &mut browsers[0];
     room.edit("scene.toml", "radius = 1", "radius = -1");
-    browser.wait(tab, "dapple.state.error");
-    let text = browser.value(tab, "document.body.innerText");
-    let text = text.as_str().unwrap();
-    assert!(text.contains("scene.toml:31") && text.contains("must be above 0"), "{text}");
+    let shows = |text: &str| format!("document.body.innerText.includes({text:?})");
+    browser.wait(tab, &format!("{} && {}", shows("scene.toml:31"), shows("must be above 0")));
     assert_eq!(browser.value(tab, "dapple.shown.generation"), 2);
     room.edit("scene.toml", "radius = -1", "radius = 1.5");
     browser.wait(tab, "!dapple.state.error && dapple.shown.generation === 3");
-    let text = browser.value(tab, "document.body.innerText");
-    assert!(!text.as_str().unwrap().contains("must be above 0"));
+    browser.wait(tab, &format!("!{}", shows("must be above 0")));
     check_screen(browser, tab, &server);
 }
 
