@@ -12,7 +12,6 @@ use toml_edit::Value;
 const SMALL: usize = 16;
 /// What the reader cuts edges to when the scene does not say.
 const EDGE_PIXELS: f32 = 2.0;
-const MOST_TRIANGLES: u32 = 4_000_000;
 
 impl Writer<'_> {
     pub(super) fn mesh(&mut self, handle: Handle<Mesh>, mesh: &Mesh) -> Result<Keys> {
@@ -61,7 +60,7 @@ impl Writer<'_> {
             EdgeLimit::Length(length) => keys.set("edge_length", number(length)),
             EdgeLimit::Pixels(pixels) => keys.number("edge_pixels", pixels, EDGE_PIXELS),
         }
-        keys.count("max_triangles", displacement.most_triangles, MOST_TRIANGLES);
+        keys.count("max_triangles", displacement.most_triangles, Displacement::USUAL_MOST_TRIANGLES);
         keys.inline()
     }
 }

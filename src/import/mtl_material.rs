@@ -4,9 +4,9 @@ use super::file::{inside, shown};
 use super::image::read_image;
 use super::mtl::{Map, Mtl};
 use crate::scene::{
-    Bump, Channel, ColorSpace, Derivative, Detail, Emission, Handle, Image, ImageTexture, Material,
-    NormalMap, Opacity, Principled, Roughness, Scene, Surface, Tangents, TexelFilter, Texels, Texture,
-    UvTransform, Value, Wrap,
+    Bump, Channel, ColorSpace, Derivative, Detail, Dielectric, Emission, Handle, Image, ImageTexture,
+    Material, NormalMap, Opacity, Principled, Roughness, Scene, Surface, Tangents, TexelFilter, Texels,
+    Texture, UvTransform, Value, Wrap,
 };
 use crate::{Error, Result};
 use glam::Vec3;
@@ -36,7 +36,7 @@ pub(super) struct Maker<'a> {
 impl Maker<'_> {
     pub fn material(&mut self, mtl: &Mtl) -> Result<Handle<Material>> {
         let mut principled = Principled {
-            ior: Value::Constant(mtl.ior.unwrap_or(1.5).clamp(1.0, 100.0)),
+            ior: Value::Constant(mtl.ior.unwrap_or(1.5).clamp(1.0, Dielectric::MOST_INDEX)),
             metallic: self.number(mtl.metallic.unwrap_or(0.0), mtl.metallic, &mtl.metallic_map)?,
             roughness: self.roughness(mtl)?,
             ..Principled::default()
@@ -115,7 +115,7 @@ impl Maker<'_> {
 
     fn normals(&mut self, map: &Map) -> Result<NormalMap> {
         let texture = self.texture(map, ColorSpace::Linear, Channel::Rgb, 1.0)?;
-        let strength = map.multiplier.clamp(-100.0, 100.0);
+        let strength = map.multiplier.clamp(-NormalMap::MOST_STRENGTH, NormalMap::MOST_STRENGTH);
         Ok(NormalMap { texture, green_down: false, strength, tangents: Tangents::MikkTSpace })
     }
 

@@ -8,7 +8,7 @@ use glam::Vec3;
 pub struct Opacity {
     /// How much of the surface is there: 0 = nothing, 1 = all of it.
     pub value: Value<f32>,
-    /// A point is there when its value is this or more; none = each point is there to the part that its value says.
+    /// A point is there when its value is this, at least 0, or more; none = each point is there to the part that its value says.
     pub cutoff: Option<f32>,
     /// Colour that light has which goes straight through, where the surface is not there.
     pub filter: Value<Vec3>,
@@ -91,6 +91,11 @@ pub struct NormalMap {
     pub strength: f32,
     /// Where x and y are.
     pub tangents: Tangents,
+}
+
+impl NormalMap {
+    /// Most that x and y are stretched by, either way.
+    pub const MOST_STRENGTH: f32 = 100.0;
 }
 
 /// What a material does to the surface itself.

@@ -38,3 +38,8 @@ pub struct Displacement {
     /// Most triangles that it may be cut into.
     pub most_triangles: u32,
 }
+
+impl Displacement {
+    /// Triangles that a mesh may be cut into where nothing is said.
+    pub const USUAL_MOST_TRIANGLES: u32 = 4_000_000;
+}

@@ -55,6 +55,11 @@ pub struct Exposure {
     pub stops: f32,
 }
 
+impl Exposure {
+    /// Stops, either way, beyond which the factor leaves 32-bit floats.
+    pub const MOST_STOPS: f32 = 64.0;
+}
+
 impl Default for Exposure {
     fn default() -> Self {
         Self { meter: Meter::Fixed, stops: 0.0 }

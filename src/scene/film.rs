@@ -97,6 +97,11 @@ pub struct Filter {
     pub radius: f32,
 }
 
+impl Filter {
+    /// Largest radius in pixels: wider filters only blur.
+    pub const MOST_RADIUS: f32 = 64.0;
+}
+
 /// Size and encoding of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
@@ -178,6 +183,13 @@ pub struct Render {
     pub firefly_clamp: Option<f32>,
     /// Light that comes from below the geometric surface is cut off even where the shading normal sees it.
     pub geometric_veto: bool,
+}
+
+impl Render {
+    /// Most scattering events that a scene may ask for.
+    pub const MOST_DEPTH: u32 = 1000;
+    /// Most strata of a pixel along an axis.
+    pub const MOST_STRATA: u32 = 4096;
 }
 
 impl Default for Render {

@@ -93,6 +93,9 @@ pub struct Dielectric {
 }
 
 impl Dielectric {
+    /// Largest index of refraction, and largest imaginary part of one: real materials reach about 8; it leaves room and keeps squares
+    /// harmless.
+    pub const MOST_INDEX: f32 = 100.0;
     /// No glass bends colours as differently as that; diamond has 55, dense flint glass 20.
     pub const LEAST_ABBE: f32 = 1.0;
     /// Above it there is as good as no dispersion: red and blue are less than 0.0001 apart.
@@ -246,6 +249,11 @@ pub enum Surface {
     Principled(Box<Principled>),
     /// One of two materials.
     Mix(Mix),
+}
+
+impl Surface {
+    /// Largest exponent of [`Surface::Phong`]: larger ones cannot be told from a mirror, and 32-bit powers of them fail.
+    pub const MOST_EXPONENT: f32 = 1e6;
 }
 
 /// Light that a surface sends out by itself.

@@ -164,6 +164,160 @@ fn models() {
 }
 
 #[test]
+fn a_model_with_all_that_vertices_may_have() {
+    let scene = keeps(&[(
+        "a.gltf",
+        &gltf(|model| {
+            let png = {
+                let mut bytes = std::io::Cursor::new(Vec::new());
+                let picture =
+                    image::RgbaImage::from_fn(4, 2, |x, y| image::Rgba([40 * x as u8, 90 * y as u8, 7, 200]));
+                picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+                STANDARD.encode(bytes.into_inner())
+            };
+            model["images"] = json!([{"uri": format!("data:image/png;base64,{png}")}]);
+            model["textures"] = json!([{"source": 0}]);
+            model["materials"] = json!([{
+                "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}},
+                "normalTexture": {"index": 0, "scale": -300},
+                "alphaMode": "MASK", "alphaCutoff": 1.5
+            }]);
+            // The four tangents stand for colours too
+            model["meshes"][0]["primitives"][0] = json!({"material": 0, "indices": 4, "attributes": {
+                "POSITION": 0, "NORMAL": 1, "TANGENT": 2, "TEXCOORD_0": 3, "TEXCOORD_1": 3, "COLOR_0": 2
+            }});
+        }),
+    )]);
+    let (_, _, mesh) = scene.meshes.iter().next().unwrap();
+    assert!(
+        [mesh.normals.len(), mesh.tangents.len(), mesh.uvs.len(), mesh.uvs1.len(), mesh.colors.len()]
+            == [4; 5]
+    );
+    let (_, _, material) = scene.materials.iter().next().unwrap();
+    assert_eq!(material.detail.opacity.cutoff, Some(1.5));
+    assert_eq!(material.detail.normal_map.unwrap().strength, -100.0);
+}
+
+#[test]
+fn pictures_that_are_drawn_out_without_end() {
+    let scene = keeps(&[(
+        "a.gltf",
+        &gltf(|model| {
+            model["images"] = json!([{"uri": "i.png"}]);
+            model["textures"] = json!([{"source": 0}]);
+            let placed = json!({"KHR_texture_transform": {"scale": [0, 2]}});
+            model["materials"] =
+                json!([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": placed}}}]);
+            model["meshes"][0]["primitives"][0] = json!({"material": 0, "indices": 4, "attributes": {
+                "POSITION": 0, "TEXCOORD_0": 3
+            }});
+        }),
+    )]);
+    let Some((_, _, Texture::Image(texture))) = scene.textures.iter().next() else { panic!("no picture") };
+    assert_eq!(texture.uv.scale.x, 0.0);
+    let texture = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"i.png\" \"float uscale\" 0\n\
+        Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"";
+    keeps(&[("a.pbrt", &pbrt(texture))]);
+}
+
+#[test]
+fn numbers_of_pbrt_at_the_ends_of_their_ranges() {
+    let sphere = |material: &str| pbrt(&format!("Material {material}\nShape \"sphere\""));
+    for material in [
+        "\"dielectric\" \"float eta\" 1 \"float roughness\" 0.3",
+        "\"dielectric\" \"float eta\" 1e4",
+        "\"coateddiffuse\" \"float eta\" 0.8 \"float roughness\" 0.2",
+        "\"coateddiffuse\" \"float eta\" 1e4",
+        "\"coatedconductor\" \"float interface.eta\" 1 \"float interface.roughness\" 0.2",
+        "\"conductor\" \"rgb eta\" [0 0.5 200] \"rgb k\" [300 0 1]",
+    ] {
+        keeps(&[("a.pbrt", &sphere(material))]);
+    }
+    let marble = "Texture \"t\" \"spectrum\" \"marble\" \"float variation\" -0.5\n\
+        Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"";
+    keeps(&[("a.pbrt", &pbrt(marble))]);
+    let sinc = format!("PixelFilter \"sinc\" \"float tau\" 100\n{}", pbrt("Shape \"sphere\""));
+    keeps(&[("a.pbrt", &sinc)]);
+}
+
+#[test]
+fn kinds_with_nothing_but_what_they_need() {
+    let textures = [
+        ("image", "file = \"i.png\""),
+        ("stack", "files = [\"i.png\", \"i.png\"]"),
+        ("glsl", "source = \"vec4 color(TextureContext c) { return vec4(1.0); }\""),
+        ("constant", "color = 0.3"),
+        ("vertex_color", ""),
+        ("checker", ""),
+        ("noise", ""),
+        ("fbm", ""),
+        ("turbulence", ""),
+        ("ridged", ""),
+        ("windy", ""),
+        ("value_noise", ""),
+        ("marble", ""),
+        ("wood", ""),
+        ("granite", ""),
+        ("brick", ""),
+        ("dots", ""),
+        ("gradient", ""),
+        ("worley", ""),
+        ("ramp", "value = { texture = \"constant\" }\nstops = [[0, 0], [1, 1]]"),
+        ("curve", "value = { texture = \"constant\" }\npoints = [[0, 0], [1, 1]]"),
+        ("mix", "a = { texture = \"constant\" }\nb = 1"),
+        ("direction_mix", "a = { texture = \"constant\" }\nb = 1\ndirection = [0, 1, 0]"),
+        ("add", "a = { texture = \"constant\" }\nb = 1"),
+        ("multiply", "a = { texture = \"constant\" }\nb = 0.4"),
+        ("scale", "value = { texture = \"constant\" }\nfactor = 2"),
+        ("invert", "value = { texture = \"constant\" }"),
+        ("warp", "value = { texture = \"checker\" }"),
+        ("mapped", "value = { texture = \"image\" }\nmapping = \"spherical\""),
+    ];
+    let materials = [
+        ("unlit", "color = 1"),
+        ("diffuse", ""),
+        ("diffuse_transmission", ""),
+        ("phong", ""),
+        ("conductor", ""),
+        ("dielectric", ""),
+        ("coated_diffuse", ""),
+        ("coated_conductor", ""),
+        ("principled", ""),
+        ("mix", "a = \"diffuse\"\nb = \"phong\""),
+    ];
+    let round = "center = [0, 0, 0]\nradius = 1";
+    let tube = "center = [0, 0, 0]\nradius = 1\naxis = [0, 1, 0]\nz_min = 0\nz_max = 1";
+    let patch = "p00 = [0, 0, 0]\np10 = [1, 0, 0]\np01 = [0, 1, 0]\np11 = [1, 1, 1]";
+    let quad = "origin = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 1, 0]";
+    let disk = "center = [0, 0, 0]\nnormal = [0, 1, 0]\nradius = 1";
+    let forms = [("sphere", round), ("disk", disk), ("quad", quad), ("cylinder", tube), ("patch", patch)];
+    let lights = [
+        ("point", "position = [0, 3, 0]\nintensity = 1"),
+        ("spot", "position = [0, 3, 0]\nintensity = 1\ndirection = [0, -1, 0]"),
+        ("projection", "position = [0, 3, 0]\nintensity = { texture = \"image\" }\ndirection = [0, -1, 0.1]"),
+        ("distant", "direction = [0, -1, 0]\nirradiance = 1"),
+    ];
+    let mut text = String::from("[film]\nsize = [16, 12]\n[environment]\ncolor = 1\n");
+    let mut table = |table: &str, kind: &str, keys: &str| {
+        text += &format!("{table}\nkind = \"{kind}\"\n{keys}\n");
+    };
+    textures.iter().for_each(|(kind, keys)| table(&format!("[texture.{kind}]"), kind, keys));
+    materials.iter().for_each(|(kind, keys)| table(&format!("[material.{kind}]"), kind, keys));
+    for (kind, keys) in forms {
+        table("[[shape]]", kind, &format!("{keys}\nmaterial = \"diffuse\""));
+        table("[[light]]", kind, &format!("{keys}\nradiance = 1"));
+    }
+    lights.iter().for_each(|(kind, keys)| table("[[light]]", kind, keys));
+    keeps(&[("a.toml", &text)]);
+    for camera in ["perspective", "orthographic", "equirectangular", "fisheye"] {
+        keeps(&[("a.toml", &format!("[camera]\nkind = \"{camera}\"\n[environment]\ncolor = 1\n"))]);
+    }
+    for filter in ["box", "tent", "gaussian", "blackman_harris", "mitchell", "sinc"] {
+        keeps(&[("a.toml", &format!("[film]\nfilter = \"{filter}\"\n[environment]\ncolor = 1\n"))]);
+    }
+}
+
+#[test]
 fn the_exposure_of_a_camera_that_is_replaced() {
     let scene = "[camera]\nf_number = 8\nfocus_distance = 3\nshutter = 0.01\n[environment]\ncolor = 1\n[[instance]]\nfile = \"m.gltf\"\n";
     let folder = folder(&[("a.toml", scene), ("m.gltf", &gltf(|_| {}))]);

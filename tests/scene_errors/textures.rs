@@ -48,8 +48,8 @@ fn textures() {
             "4:18: `wrap[1]` is \"repat\", must be one of \"repeat\", \"clamp\", \"mirror\", \"black\"; did you mean \"repeat\"?",
         ),
         (
-            "[texture.t]\nkind = 'image'\nfile = 'a.png'\nuv_scale = [1, 0]",
-            "4:16: `uv_scale[1]` is 0, must be different from 0",
+            "[texture.t]\nkind = 'image'\nfile = 'a.png'\nuv_scale = [1, inf]",
+            "4:16: `uv_scale[1]` is inf, must be finite",
         ),
         (
             "[texture.t]\nkind = 'image'\nfile = 'a.png'\ngamma = 2",

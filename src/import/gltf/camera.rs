@@ -37,6 +37,9 @@ pub(super) fn read(json: &Json<'_>, index: usize, world: &DAffine3) -> Result<Mo
         "orthographic" => {
             let view = json.need("orthographic")?;
             let (xmag, ymag) = (above_zero(&view, "xmag")?, above_zero(&view, "ymag")?);
+            if !(2.0 * ymag).is_finite() {
+                return Err(view.error("`ymag` is too large"));
+            }
             (Projection::Orthographic { size: 2.0 * ymag, axis: FovAxis::Vertical }, Some(xmag / ymag))
         }
         _ => return Err(kind.error("a camera is \"perspective\" or \"orthographic\"")),
@@ -47,6 +50,9 @@ pub(super) fn read(json: &Json<'_>, index: usize, world: &DAffine3) -> Result<Mo
         return Err(json.error("the node of the camera has no size"));
     };
     let position = world.translation;
+    if !position.as_vec3().is_finite() {
+        return Err(json.error("the node of the camera is too far away"));
+    }
     // Far enough for the target to be another point in 32 bits
     let target = position - back * position.length().max(1.0);
     let camera = Camera {

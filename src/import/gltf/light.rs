@@ -19,6 +19,9 @@ pub(super) fn all<'a>(document: &Document<'a>) -> Result<Vec<Json<'a>>> {
 pub(super) fn of_node(lights: &[Json<'_>], node: &Json<'_>, world: &DAffine3) -> Result<Option<Light>> {
     let Some(extension) = node.extension(EXTENSION)? else { return Ok(None) };
     let index = index_into(&extension.need("light")?, "extensions/KHR_lights_punctual/lights", lights.len())?;
+    if !world.translation.as_vec3().is_finite() {
+        return Err(node.error("the node of the light is too far away"));
+    }
     read(&lights[index], world).map(Some)
 }
 

@@ -10,8 +10,6 @@ use crate::scene::{
 };
 use glam::{Vec3, Vec4};
 
-/// Largest index of refraction; an ior of 0 means one without end.
-const MAX_INDEX: f32 = 100.0;
 /// Extensions of materials that are left out.
 const LEFT_OUT: [&str; 4] = [
     "KHR_materials_anisotropy",
@@ -88,7 +86,7 @@ impl<'a> Reader<'a> {
         let mode = json.get("alphaMode")?;
         let cutoff = match mode.as_ref().map(Json::string).transpose()? {
             None | Some("OPAQUE") => return Ok((color, Opacity::default())),
-            Some("MASK") => Some(json.number_or("alphaCutoff", 0.5)?),
+            Some("MASK") => Some(json.number_or("alphaCutoff", 0.5)?.max(0.0)),
             Some("BLEND") => None,
             Some(_) => return Err(json.error("`alphaMode` is none of OPAQUE, MASK and BLEND")),
         };
@@ -114,7 +112,8 @@ impl<'a> Reader<'a> {
 
     fn normal_map(&mut self, json: &Json<'a>) -> Result<Option<NormalMap>> {
         let Some(info) = json.get("normalTexture")? else { return Ok(None) };
-        let strength = info.number_or("scale", 1.0)?;
+        let most = NormalMap::MOST_STRENGTH;
+        let strength = info.number_or("scale", 1.0)?.clamp(-most, most);
         let texture = self.picture(&info, VECTOR)?;
         let map =
             |texture| NormalMap { texture, green_down: false, strength, tangents: Tangents::MikkTSpace };
@@ -141,7 +140,10 @@ impl<'a> Reader<'a> {
     fn layers(&mut self, json: &Json<'a>, principled: &mut Principled) -> Result<()> {
         if let Some(ior) = json.extension("KHR_materials_ior")? {
             let ior = ior.number_or("ior", 1.5)?;
-            principled.ior = Value::Constant(if ior == 0.0 { MAX_INDEX } else { ior.clamp(1.0, MAX_INDEX) });
+            // 0 means one without end
+            let ior =
+                if ior == 0.0 { Dielectric::MOST_INDEX } else { ior.clamp(1.0, Dielectric::MOST_INDEX) };
+            principled.ior = Value::Constant(ior);
         }
         if let Some(specular) = json.extension("KHR_materials_specular")? {
             principled.specular =

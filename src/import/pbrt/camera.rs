@@ -9,7 +9,8 @@ use super::unsupported::Unsupported;
 use crate::import::Spacing;
 use crate::import::text::Limits;
 use crate::scene::{
-    Aperture, Camera, FovAxis, Lens, LensCamera, Measure, Opening, Paraxial, Perspective, Projection, Stand,
+    Aperture, Camera, Exposure, FovAxis, Lens, LensCamera, Measure, Opening, Paraxial, Perspective,
+    Projection, Stand,
 };
 use crate::{Error, Result};
 use glam::{DAffine3, DVec3};
@@ -131,7 +132,13 @@ impl Reader<'_> {
             return Err(from.error("the shutter closes before it opens").help("write a larger shutterclose"));
         }
         self.shutter = [open.into(), close.into()];
-        self.scene.film.exposure.stops += (close - open).log2();
+        let stops = self.scene.film.exposure.stops + (close - open).log2();
+        if stops.abs() > Exposure::MOST_STOPS {
+            let message = format!("iso and shutter change the brightness by {stops} stops");
+            let most = Exposure::MOST_STOPS;
+            return Err(from.error(message).help(format!("{most} at most are possible: change one of them")));
+        }
+        self.scene.film.exposure.stops = stops;
         Ok(())
     }
 
@@ -140,12 +147,24 @@ impl Reader<'_> {
         let radius = from.float_or("lensradius", 0.0, Limits::AtLeast(0.0))?;
         let focus = from.float_or("focaldistance", 1e6, Limits::Above(0.0))?;
         let scale = axes.scale as f32;
-        let lens = (radius > 0.0).then(|| Lens::new(Aperture::Radius(radius * scale), focus * scale));
+        let lens = match radius > 0.0 {
+            true => Some(Lens::new(
+                Aperture::Radius(length(from, "lensradius", radius * scale)?),
+                length(from, "focaldistance", focus * scale)?,
+            )),
+            false => None,
+        };
         Ok(Projection::Perspective(match self.window(from)? {
             None => Perspective { fov, fov_axis: FovAxis::Smaller, lens },
             Some(half) => {
                 let half_fov = (0.5 * fov.to_radians()).tan() * half;
-                Perspective { fov: 2.0 * half_fov.atan().to_degrees(), fov_axis: FovAxis::Vertical, lens }
+                let fov = 2.0 * half_fov.atan().to_degrees();
+                if !(0.0 < fov && fov < 180.0) {
+                    let error =
+                        from.error("screenwindow is so high or so low that nothing can be seen in it");
+                    return Err(error.help("write numbers nearer to -1 and 1"));
+                }
+                Perspective { fov, fov_axis: FovAxis::Vertical, lens }
             }
         }))
     }
@@ -156,10 +175,11 @@ impl Reader<'_> {
         }
         from.float_or("focaldistance", 1e6, Limits::Above(0.0))?;
         let scale = axes.scale as f32;
-        Ok(match self.window(from)? {
-            None => Projection::Orthographic { size: 2.0 * scale, axis: FovAxis::Smaller },
-            Some(half) => Projection::Orthographic { size: 2.0 * half * scale, axis: FovAxis::Vertical },
-        })
+        let (half, axis) = match self.window(from)? {
+            None => (1.0, FovAxis::Smaller),
+            Some(half) => (half, FovAxis::Vertical),
+        };
+        Ok(Projection::Orthographic { size: length(from, "screenwindow", 2.0 * half * scale)?, axis })
     }
 
     /// Half of the height of `screenwindow`, in which the shorter side of the film is from −1 to 1 without it.
@@ -236,4 +256,13 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// A length that the transform of the camera has scaled.
+fn length(from: &Parameters, name: &str, scaled: f32) -> Result<f32> {
+    if scaled > 0.0 && scaled.is_finite() {
+        return Ok(scaled);
+    }
+    let message = format!("{name} is {scaled} with the transform of the camera");
+    Err(from.error(message).help("change its scale, or what is scaled"))
 }

@@ -9,9 +9,6 @@ use crate::Result;
 use crate::import::text::Limits;
 use crate::scene::{Film, Filter, FilterKind, MAX_SIDE, Rect};
 
-/// Widest filter in pixels.
-const WIDEST: f32 = 64.0;
-
 impl Reader<'_> {
     pub(super) fn film(&mut self, setting: Option<&Setting>) -> Result<()> {
         let mut film = Film { width: 1280, height: 720, ..Film::default() };
@@ -73,7 +70,7 @@ impl Reader<'_> {
                 return Err(self.unknown("PixelFilter", kind, from, &known));
             }
         };
-        let limits = Limits::AboveUpTo(0.0, WIDEST);
+        let limits = Limits::AboveUpTo(0.0, Filter::MOST_RADIUS);
         let [x, y] = [from.float_or("xradius", usual, limits)?, from.float_or("yradius", usual, limits)?];
         if x != y {
             self.unsupported(Unsupported::FilterSize, &from.spot);

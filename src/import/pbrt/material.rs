@@ -159,7 +159,7 @@ impl Reader<'_> {
         let (index, abbe) = self.index(from, "eta")?;
         let roughness = match thin {
             true => Roughness::alpha(0.0),
-            false => self.roughness(from, ["uroughness", "vroughness", "roughness"], 0.0)?,
+            false => self.boundary(from, index, ["uroughness", "vroughness", "roughness"])?,
         };
         let abbe = abbe.filter(|_| !thin);
         Ok(Dielectric { ior: Value::Constant(index), abbe, roughness, absorption: Vec3::ZERO, thin })
@@ -172,7 +172,22 @@ impl Reader<'_> {
             None => self.spectrum(from, name)?.map_or((USUAL_INDEX, None), |spectrum| spectrum.glass()),
         };
         // pbrt takes 0 for 1
-        Ok((if index == 0.0 { 1.0 } else { index }, abbe))
+        let index = if index > 0.0 { index } else { 1.0 };
+        Ok((self.within_range(from, Vec3::splat(index)).x, abbe))
+    }
+
+    /// An index of refraction, or its imaginary part, as far as indices go.
+    fn within_range(&mut self, from: &Parameters, index: Vec3) -> Vec3 {
+        if index.max_element() > Dielectric::MOST_INDEX {
+            self.unsupported(Unsupported::LargeIndex, &from.spot);
+        }
+        index.clamp(Vec3::ZERO, Vec3::splat(Dielectric::MOST_INDEX))
+    }
+
+    /// Widths of microfacets of a boundary: one that bends nothing is smooth, as in pbrt.
+    fn boundary(&mut self, from: &Parameters, index: f32, widths: [&'static str; 3]) -> Result<Roughness> {
+        let roughness = self.roughness(from, widths, 0.0)?;
+        Ok(if index == 1.0 { Roughness::alpha(0.0) } else { roughness })
     }
 
     /// Widths of microfacets: along u, across it, and what both are where they are not there.
@@ -237,13 +252,16 @@ impl Reader<'_> {
         if textures == [false; 2] {
             let eta = self.spectrum(from, eta)?.unwrap_or(copper()[0].clone());
             let k = self.spectrum(from, k)?.unwrap_or(copper()[1].clone());
-            return Ok(indices(&eta, &k).map(Value::Constant));
+            return Ok(indices(&eta, &k).map(|index| Value::Constant(self.within_range(from, index))));
         }
         let [usual_eta, usual_k] = copper().map(|spectrum| Value::Constant(spectrum.rgb(Role::Unbounded)));
-        Ok([
-            self.spectrum_texture(from, eta, Role::Unbounded)?.unwrap_or(usual_eta),
-            self.spectrum_texture(from, k, Role::Unbounded)?.unwrap_or(usual_k),
-        ])
+        let mut optic = |name, usual| {
+            Ok(match self.spectrum_texture(from, name, Role::Unbounded)?.unwrap_or(usual) {
+                Value::Constant(index) => Value::Constant(self.within_range(from, index)),
+                texture => texture,
+            })
+        };
+        Ok([optic(eta, usual_eta)?, optic(k, usual_k)?])
     }
 
     fn mix(&mut self, from: &Parameters) -> Result<Surface> {
@@ -286,7 +304,7 @@ impl Reader<'_> {
         widths: [&'static str; 3],
     ) -> Result<Interface> {
         let ior = self.index(from, index)?.0.max(1.0);
-        Ok(Interface { ior, roughness: self.roughness(from, widths, 0.0)? })
+        Ok(Interface { ior, roughness: self.boundary(from, ior, widths)? })
     }
 
     /// What is between two layers, and how light there is followed.

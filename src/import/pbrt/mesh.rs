@@ -14,8 +14,6 @@ use crate::scene::{Displacement, DisplacementDirection, EdgeLimit, Mesh, MeshPar
 use glam::{Vec2, Vec3};
 use std::path::PathBuf;
 
-/// Most triangles of a displaced mesh: about a gigabyte with all that belongs to them.
-const MOST_DISPLACED: u32 = 4_000_000;
 /// Most triangles that are made of shapes which are no meshes, or of a file that has been read before.
 const MOST_MADE: usize = 1 << 24;
 
@@ -90,7 +88,7 @@ impl Reader<'_> {
             offset: 0.0,
             direction: DisplacementDirection::Normal,
             edge: EdgeLimit::Length(edge),
-            most_triangles: MOST_DISPLACED,
+            most_triangles: Displacement::USUAL_MOST_TRIANGLES,
         }))
     }
 

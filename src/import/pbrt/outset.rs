@@ -10,12 +10,7 @@ use super::state::{Maps, State};
 use super::unsupported::Unsupported;
 use crate::Result;
 use crate::import::text::{Limits, shown, suggest};
-use crate::scene::{MAX_SAMPLES, Sampler};
-
-/// Most scattering events on a path.
-const MOST_DEPTH: u32 = 1000;
-/// Most strata of a pixel along an axis.
-const MOST_STRATA: u32 = 4096;
+use crate::scene::{MAX_SAMPLES, Render, Sampler};
 
 /// A directive and its parameters.
 #[derive(Debug)]
@@ -152,8 +147,8 @@ impl Reader<'_> {
         match kind.as_str() {
             "stratified" => {
                 let strata = [
-                    from.integer_or("xsamples", 4, 1, MOST_STRATA)?,
-                    from.integer_or("ysamples", 4, 1, MOST_STRATA)?,
+                    from.integer_or("xsamples", 4, 1, Render::MOST_STRATA)?,
+                    from.integer_or("ysamples", 4, 1, Render::MOST_STRATA)?,
                 ];
                 let jitter = from.bool_or("jitter", true)?;
                 render.sampler = if jitter { Sampler::Stratified } else { Sampler::Regular };
@@ -193,7 +188,7 @@ impl Reader<'_> {
         match kind.as_str() {
             "path" | "volpath" | "simplepath" | "simplevolpath" | "lightpath" | "bdpt" | "mlt" | "sppm"
             | "randomwalk" => {
-                self.scene.render.max_depth = from.integer_or("maxdepth", DEPTH, 0, MOST_DEPTH)?;
+                self.scene.render.max_depth = from.integer_or("maxdepth", DEPTH, 0, Render::MOST_DEPTH)?;
             }
             "ambientocclusion" | "function" => {
                 self.unsupported(Unsupported::Integrator, &from.spot);

@@ -13,9 +13,6 @@ use crate::scene::{Handle, Noise, NoiseSum, Perlin, Spread, Texture, Value, Vein
 use glam::Vec3;
 use std::collections::BTreeMap;
 
-/// Most octaves of noise.
-const MOST_OCTAVES: u32 = 32;
-
 /// What values of a texture are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Number {
@@ -277,7 +274,7 @@ fn splat(value: Value<f32>) -> Value<Vec3> {
 }
 
 fn octaves(from: &Parameters) -> Result<u32> {
-    from.integer_or("octaves", 8, 1, MOST_OCTAVES)
+    from.integer_or("octaves", 8, 1, Noise::MOST_OCTAVES)
 }
 
 /// Factor on the amplitude from one octave to the next.

@@ -58,6 +58,7 @@ unsupported! {
     DisplacedInstance: "displacement of a plymesh in an object", "its edges and heights are those of the smallest place";
     Ptex: "Texture \"ptex\"", "a constant of 0.5";
     LayerMedium: "albedo of \"coateddiffuse\" or \"coatedconductor\"", "nothing is between the layers";
+    LargeIndex: "an index of refraction above 100", "it is 100";
     Hair: "Material \"hair\"", "a \"diffuse\" one of 0.5";
     Measured: "Material \"measured\"", "a \"diffuse\" one of 0.5";
     Subsurface: "Material \"subsurface\"", "a \"diffuse\" one of 0.5";

@@ -52,7 +52,11 @@ impl Reader<'_> {
         Ok(NormalMap {
             texture: self.textures.find(view.need("texture")?)?,
             green_down: view.choice_or("green", false, &[("up", false), ("down", true)])?,
-            strength: view.f32_or("strength", 1.0, Limits::From(-100.0, 100.0))?,
+            strength: view.f32_or(
+                "strength",
+                1.0,
+                Limits::From(-NormalMap::MOST_STRENGTH, NormalMap::MOST_STRENGTH),
+            )?,
             tangents: view.choice_or("tangents", Tangents::MikkTSpace, &tangents)?,
         })
     }
@@ -68,7 +72,7 @@ impl Reader<'_> {
         };
         Ok(Opacity {
             value: self.number(item, SHARE)?,
-            cutoff: view.get("opacity_cutoff").map(|item| item.f32(SHARE)).transpose()?,
+            cutoff: view.get("opacity_cutoff").map(|item| item.f32(Limits::AtLeast(0.0))).transpose()?,
             filter: match view.get("filter_color") {
                 Some(item) => self.color(item, SHARE)?,
                 None => Value::Constant(Vec3::ONE),

@@ -11,8 +11,6 @@ use crate::scene::{
 
 /// Pixels of an edge when the scene does not say.
 const EDGE_PIXELS: f32 = 2.0;
-/// Triangles of a mesh when the scene does not say: about a gigabyte with all that belongs to them.
-const MOST_TRIANGLES: u32 = 4_000_000;
 
 impl Reader<'_> {
     pub fn displacement(&self, item: Item<'_>) -> Result<Displacement> {
@@ -34,7 +32,12 @@ impl Reader<'_> {
             offset: view.f32_or("offset", 0.0, Limits::Finite)?,
             direction: view.choice_or("direction", DisplacementDirection::Normal, &directions)?,
             edge,
-            most_triangles: view.u32_or("max_triangles", MOST_TRIANGLES, 1, i32::MAX as u32)?,
+            most_triangles: view.u32_or(
+                "max_triangles",
+                Displacement::USUAL_MOST_TRIANGLES,
+                1,
+                i32::MAX as u32,
+            )?,
         })
     }
 

@@ -10,12 +10,6 @@ use crate::scene::{
     Exposure, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Meter, Rect, Render, Sampler, ToneCurve,
 };
 
-const MAX_STRATA: u32 = 4096;
-const MAX_DEPTH: u32 = 1000;
-/// Stops beyond which the factor leaves 32-bit floats.
-const MAX_EXPOSURE: f32 = 64.0;
-/// Pixels; wider filters only blur.
-const MAX_FILTER_RADIUS: f32 = 64.0;
 const TONE_CURVES: [(&str, ToneCurve); 4] = [
     ("srgb", ToneCurve::Srgb),
     ("linear", ToneCurve::Linear),
@@ -26,7 +20,7 @@ const TONE_CURVES: [(&str, ToneCurve); 4] = [
 /// Stops, or `"auto"`.
 fn exposure(item: Item<'_>) -> Result<Exposure> {
     if item.is_number() {
-        let stops = item.f32(Limits::From(-MAX_EXPOSURE, MAX_EXPOSURE))?;
+        let stops = item.f32(Limits::From(-Exposure::MOST_STOPS, Exposure::MOST_STOPS))?;
         return Ok(Exposure { stops, ..Exposure::default() });
     }
     match item.string() {
@@ -83,12 +77,12 @@ impl Reader<'_> {
             seed: view.u32_or("seed", default.seed, 0, u32::MAX)?,
             sampler: view.choice_or("sampler", default.sampler, &samplers)?,
             strata: match view.get("strata") {
-                Some(item) => item.whole_numbers(1, MAX_STRATA)?,
+                Some(item) => item.whole_numbers(1, Render::MOST_STRATA)?,
                 None => default.strata,
             },
-            max_depth: view.u32_or("max_depth", default.max_depth, 0, MAX_DEPTH)?,
+            max_depth: view.u32_or("max_depth", default.max_depth, 0, Render::MOST_DEPTH)?,
             diffuse_bounces: match view.get("diffuse_bounces") {
-                Some(item) => Some(item.u32(0, MAX_DEPTH)?),
+                Some(item) => Some(item.u32(0, Render::MOST_DEPTH)?),
                 None => default.diffuse_bounces,
             },
             russian_roulette: view.bool_or("russian_roulette", default.russian_roulette)?,
@@ -133,12 +127,12 @@ fn filter(view: &View<'_>, default: Filter) -> Result<Filter> {
             2.0
         }
         FilterKind::Sinc { tau } => {
-            *tau = view.f32_or("filter_tau", *tau, Limits::AboveUpTo(0.0, MAX_FILTER_RADIUS))?;
+            *tau = view.f32_or("filter_tau", *tau, Limits::Above(0.0))?;
             4.0
         }
     };
     // That of the scene, unless another kind is chosen
     let radius = if view.get("filter").is_some() { radius } else { default.radius };
-    let radius = view.f32_or("filter_radius", radius, Limits::AboveUpTo(0.0, MAX_FILTER_RADIUS))?;
+    let radius = view.f32_or("filter_radius", radius, Limits::AboveUpTo(0.0, Filter::MOST_RADIUS))?;
     Ok(Filter { kind, radius })
 }

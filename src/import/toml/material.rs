@@ -14,10 +14,6 @@ use glam::Vec3;
 
 /// What a reflectance may be.
 const REFLECTANCE: Limits = Limits::From(0.0, 1.0);
-/// Larger exponents cannot be told from a mirror, and 32-bit powers of them fail.
-const MAX_EXPONENT: f32 = 1e6;
-/// Real materials reach about 8; the range leaves room and keeps squares harmless.
-const MAX_INDEX: f32 = 100.0;
 /// The GGX widths of a surface, squared and as they are.
 const WIDTHS: [&str; 2] = ["roughness", "alpha"];
 
@@ -49,7 +45,8 @@ impl Reader<'_> {
             "phong" => {
                 let [diffuse, specular] =
                     self.two_parts(entry, &view, [("diffuse", 0.5), ("specular", 0.0)])?;
-                let exponent = self.number_or(&view, "exponent", 50.0, Limits::From(0.0, MAX_EXPONENT))?;
+                let exponent =
+                    self.number_or(&view, "exponent", 50.0, Limits::From(0.0, Surface::MOST_EXPONENT))?;
                 Surface::Phong { diffuse, specular, exponent }
             }
             "conductor" => Surface::Conductor(self.conductor(&view)?),
@@ -128,14 +125,14 @@ impl Reader<'_> {
                     .help("keep one or the other"));
             }
         }
-        let eta = self.color(view.need("eta")?, Limits::AboveUpTo(0.0, MAX_INDEX))?;
-        let k = self.color(view.need("k")?, Limits::From(0.0, MAX_INDEX))?;
+        let eta = self.color(view.need("eta")?, Limits::From(0.0, Dielectric::MOST_INDEX))?;
+        let k = self.color(view.need("k")?, Limits::From(0.0, Dielectric::MOST_INDEX))?;
         let reflectance = Value::Constant(Vec3::ONE);
         Ok(Conductor { reflectance, fresnel: Fresnel::Index { eta, k }, roughness })
     }
 
     fn dielectric(&self, view: &View<'_>) -> Result<Dielectric> {
-        let ior = self.number_or(view, "ior", 1.5, Limits::AboveUpTo(0.0, MAX_INDEX))?;
+        let ior = self.number_or(view, "ior", 1.5, Limits::AboveUpTo(0.0, Dielectric::MOST_INDEX))?;
         let roughness = self.roughness(view, WIDTHS)?;
         let thin = view.bool_or("thin", false)?;
         let absorption = absorption(view, thin)?;
@@ -155,7 +152,7 @@ impl Reader<'_> {
 
     /// A dielectric over an opaque base.
     fn interface(&self, view: &View<'_>, index: &str, widths: [&str; 2]) -> Result<Interface> {
-        let ior = view.f32_or(index, 1.5, Limits::From(1.0, MAX_INDEX))?;
+        let ior = view.f32_or(index, 1.5, Limits::From(1.0, Dielectric::MOST_INDEX))?;
         let roughness = self.roughness(view, widths)?;
         match view.either(widths[0], widths[1])? {
             Some(item) if ior == 1.0 && !roughness.is_smooth() => Err(bends_nothing(item, index)),
@@ -172,7 +169,7 @@ impl Reader<'_> {
             base_color: self.color_or(view, "base_color", 0.5, REFLECTANCE)?,
             metallic: self.number_or(view, "metallic", 0.0, part)?,
             roughness: if rough.is_some() { self.roughness(view, WIDTHS)? } else { default.roughness },
-            ior: self.number_or(view, "ior", 1.5, Limits::From(1.0, MAX_INDEX))?,
+            ior: self.number_or(view, "ior", 1.5, Limits::From(1.0, Dielectric::MOST_INDEX))?,
             specular: self.number_or(view, "specular", 1.0, part)?,
             specular_color: self.color_or(view, "specular_color", 1.0, Limits::AtLeast(0.0))?,
             transmission: self.number_or(view, "transmission", 0.0, part)?,

@@ -75,6 +75,8 @@ pub struct Noise {
 }
 
 impl Noise {
+    /// Most octaves of a sum.
+    pub const MOST_OCTAVES: u32 = 32;
     /// The lacunarity of pbrt's noise: octaves of 2 would have their zeros in one place.
     pub const PBRT_LACUNARITY: f32 = 1.99;
     /// Octaves of the waves of [`NoiseSum::Windy`] in pbrt.

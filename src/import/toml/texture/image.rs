@@ -49,7 +49,7 @@ fn wrap(item: Item<'_>) -> Result<[Wrap; 2]> {
 }
 
 fn uv_scale(item: Item<'_>) -> Result<Vec2> {
-    if item.is_number() { item.f32(Limits::NotZero).map(Vec2::splat) } else { item.vec2(Limits::NotZero) }
+    if item.is_number() { item.f32(Limits::Finite).map(Vec2::splat) } else { item.vec2(Limits::Finite) }
 }
 
 /// How the numbers of a picture are meant, which channel is given, the factor on it, and whether it is inverted.

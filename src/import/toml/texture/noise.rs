@@ -9,8 +9,6 @@ use crate::import::toml::view::View;
 use crate::scene::{Noise, NoiseSum, Perlin, PerlinVariant, Spread, Texture, ValueNoise, VeinKind, Veins};
 use glam::Vec3;
 
-/// Most octaves of noise: the last has 2⁻³¹ of the size of the first.
-const MOST_OCTAVES: u32 = 32;
 /// Most points of the lattice of value noise along an axis.
 const LONGEST_LATTICE: u32 = 1 << 20;
 
@@ -69,7 +67,7 @@ impl Reader<'_> {
 
 /// Number of octaves.
 pub(super) fn octaves(view: &View<'_>, default: u32) -> Result<u32> {
-    view.u32_or("octaves", default, 1, MOST_OCTAVES)
+    view.u32_or("octaves", default, 1, Noise::MOST_OCTAVES)
 }
 
 /// Gain and lacunarity.
@@ -112,7 +110,7 @@ pub(super) fn veins(view: &View<'_>, kind: &str) -> Result<Texture> {
         octaves: octaves(view, octaves_alone)?,
         gain,
         lacunarity,
-        variation: view.f32_or("variation", variation, Limits::AtLeast(0.0))?,
+        variation: view.f32_or("variation", variation, Limits::Finite)?,
         colors: view.get("stops").map_or(Ok(colors), |item| stops(item).map(Spread::Stops))?,
         space: space(view)?,
     }))
