@@ -333,9 +333,10 @@ pub struct CheckArgs {
 pub struct ConvertArgs {
     /// The scene: a TOML file, a model (.gltf, .glb, .obj), or a .pbrt file of pbrt-v4
     pub scene: PathBuf,
-    /// The scene to write, NAME.toml; meshes, pictures and lenses go into the folder NAME_files beside it
+    /// The scene to write, NAME.toml; meshes, pictures and lenses go into the folder NAME_files beside it. What nothing uses is left
+    /// out
     pub output: PathBuf,
-    /// Replace what is there already
+    /// Replace files of the same names; others in NAME_files stay
     #[arg(long)]
     pub force: bool,
     /// How the scene is read

@@ -25,10 +25,6 @@ impl Keys {
         keys
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
     pub fn table(self) -> Table {
         self.0
     }
@@ -99,7 +95,7 @@ impl Writer<'_> {
     }
 
     fn texture_value(&self, texture: scene::Handle<scene::Texture>) -> Value {
-        one_key("texture", self.texture_name(texture))
+        one_key("texture", self.textures.refer(texture))
     }
 
     /// A colour or a texture, unless it is this grey.

@@ -53,7 +53,7 @@ impl Writer<'_> {
         let mut keys = Keys::new();
         match environment.radiance {
             Value::Constant(radiance) => keys.set("color", color(radiance)),
-            Value::Texture(texture) => keys.set("texture", self.texture_name(texture)),
+            Value::Texture(texture) => keys.set("texture", self.textures.refer(texture)),
         }
         map(&mut keys, environment.mapping);
         keys.number("scale", environment.scale, 1.0);

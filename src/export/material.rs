@@ -80,16 +80,16 @@ impl Writer<'_> {
                 keys.set("eta", self.color(eta));
                 keys.set("k", self.color(k));
             }
-            model => {
-                self.put_color(keys, "reflectance", &conductor.reflectance, 0.9);
-                match model {
-                    Fresnel::Schlick => keys.set("fresnel", "schlick"),
-                    Fresnel::None => keys.set("fresnel", "none"),
-                    _ => {}
-                }
-            }
+            Fresnel::Exact => self.reflectance(keys, conductor, "exact"),
+            Fresnel::Schlick => self.reflectance(keys, conductor, "schlick"),
+            Fresnel::None => self.reflectance(keys, conductor, "none"),
         }
         self.widths(keys, WIDTHS, &conductor.roughness, &Roughness::alpha(0.0));
+    }
+
+    fn reflectance(&self, keys: &mut Keys, conductor: &Conductor, model: &str) {
+        self.put_color(keys, "reflectance", &conductor.reflectance, 0.9);
+        keys.word("fresnel", model, "exact");
     }
 
     fn dielectric(&self, dielectric: &Dielectric) -> Keys {
@@ -127,8 +127,8 @@ impl Writer<'_> {
 
     fn mix(&self, mix: &Mix) -> Keys {
         let mut keys = Keys::of_kind("mix");
-        keys.set("a", self.material_name(mix.a));
-        keys.set("b", self.material_name(mix.b));
+        keys.set("a", self.materials.refer(mix.a));
+        keys.set("b", self.materials.refer(mix.b));
         self.put_amount(&mut keys, "amount", &mix.amount, 0.5);
         keys
     }
@@ -159,7 +159,7 @@ impl Writer<'_> {
         }
         if let Some(bump) = &detail.bump {
             let mut table = Keys::new();
-            table.set("texture", self.texture_name(bump.texture));
+            table.set("texture", self.textures.refer(bump.texture));
             table.number("height", bump.height, 1.0);
             let derivative = match bump.derivative {
                 Derivative::Kernel => "kernel",
@@ -172,7 +172,7 @@ impl Writer<'_> {
         }
         if let Some(map) = &detail.normal_map {
             let mut table = Keys::new();
-            table.set("texture", self.texture_name(map.texture));
+            table.set("texture", self.textures.refer(map.texture));
             table.word("green", if map.green_down { "down" } else { "up" }, "up");
             table.number("strength", map.strength, 1.0);
             table.word(

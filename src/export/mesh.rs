@@ -18,7 +18,7 @@ impl Writer<'_> {
         let mut keys = if is_plain(mesh) && mesh.triangles.len() <= SMALL && is_whole(mesh) {
             inline(mesh)
         } else {
-            let name = self.mesh_name(handle).to_owned();
+            let name = self.meshes.name(handle).to_owned();
             let mut keys = Keys::new();
             keys.set("file", self.files.add(&name, "mesh", "ply", &ply(mesh))?);
             if !is_whole(mesh) {
@@ -39,7 +39,7 @@ impl Writer<'_> {
             keys.word("name", &part.name, "");
             keys.set("triangles", i64::from(part.triangles.end - part.triangles.start));
             if let Some(material) = part.material {
-                keys.set("material", self.material_name(material));
+                keys.set("material", self.materials.refer(material));
             }
             keys.inline()
         }))
@@ -47,7 +47,7 @@ impl Writer<'_> {
 
     fn displacement(&self, displacement: &Displacement) -> Value {
         let mut keys = Keys::new();
-        keys.set("texture", self.texture_name(displacement.texture));
+        keys.set("texture", self.textures.refer(displacement.texture));
         keys.number("height", displacement.height, 1.0);
         keys.number("offset", displacement.offset, 0.0);
         let direction = match displacement.direction {

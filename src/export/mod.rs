@@ -1,7 +1,7 @@
 //! [`Scene`] → a scene file of dapple's own language, with the files that it names beside it.
 //!
 //! Every key is written with the value that reads back as the same number, and left out where it has the value of its default. Objects
-//! come in the order of their stores, so that what is read again has the same handles.
+//! come in the order of their stores, so that what is read again has the same handles. What nothing refers to is left out.
 
 mod camera;
 mod files;
@@ -22,10 +22,11 @@ mod texture;
 pub use files::Written;
 pub use ply::ply;
 
-use crate::scene::{Handle, Image, Material, Mesh, Scene, Texture};
-use crate::{Error, Result};
+use crate::Result;
+use crate::scene::{Handle, Image, Material, Mesh, Scene, Store, Texture};
 use files::Files;
 use keys::Keys;
+use names::Called;
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
@@ -45,9 +46,9 @@ pub fn write_scene(
 ) -> Result<Written> {
     let mut writer = Writer {
         scene,
-        textures: names::unique(&scene.textures, "texture"),
-        materials: names::unique(&scene.materials, "material"),
-        meshes: names::unique(&scene.meshes, "mesh"),
+        textures: Called::new(&scene.textures, "texture"),
+        materials: Called::new(&scene.materials, "material"),
+        meshes: Called::new(&scene.meshes, "mesh"),
         images: BTreeMap::new(),
         files: Files::beside(path, replace)?,
     };
@@ -58,9 +59,9 @@ pub fn write_scene(
 /// A scene on its way to files.
 struct Writer<'a> {
     scene: &'a Scene,
-    textures: Vec<String>,
-    materials: Vec<String>,
-    meshes: Vec<String>,
+    textures: Called<Texture>,
+    materials: Called<Material>,
+    meshes: Called<Mesh>,
     /// Names of the files of pictures that are written already.
     images: BTreeMap<usize, String>,
     files: Files,
@@ -69,58 +70,62 @@ struct Writer<'a> {
 impl Writer<'_> {
     fn document(&mut self) -> Result<DocumentMut> {
         let scene = self.scene;
+        let camera = self.camera()?;
+        let shapes = listed(scene.shapes.iter().map(|shape| self.shape(shape)));
+        let instances = listed(scene.instances.iter().map(|instance| self.instance(instance)));
+        let lights = listed(scene.lights.iter().map(|light| self.light(light)));
+        let environment = scene.environment.as_ref().map(|environment| self.environment(environment));
+        // Each of these refers to what is behind it alone
+        let meshes = self.named(&scene.meshes, |writer| &writer.meshes, Self::mesh)?;
+        let materials = self.named(&scene.materials, |writer| &writer.materials, Self::material)?;
+        let textures = self.named(&scene.textures, |writer| &writer.textures, Self::texture)?;
+        let settings = |keys: Keys| Item::Table(keys.table());
+        let tables = [
+            ("film", settings(film::film(&scene.film))),
+            ("render", settings(film::render(&scene.render))),
+            ("camera", settings(camera)),
+            ("texture", textures),
+            ("material", materials),
+            ("mesh", meshes),
+            ("shape", shapes),
+            ("instance", instances),
+            ("light", lights),
+        ];
         let mut document = DocumentMut::new();
-        let mut settings = |key: &str, keys: Keys| {
-            if !keys.is_empty() {
-                document.insert(key, Item::Table(keys.table()));
+        for (key, item) in tables {
+            let is_empty = match &item {
+                Item::Table(table) => table.is_empty(),
+                Item::ArrayOfTables(list) => list.is_empty(),
+                Item::None | Item::Value(_) => false,
+            };
+            if !is_empty {
+                document.insert(key, item);
             }
-        };
-        settings("film", film::film(&scene.film));
-        settings("render", film::render(&scene.render));
-        settings("camera", self.camera()?);
-        document.insert("texture", self.named(&scene.textures, Self::texture, |w, i| &w.textures[i])?);
-        document.insert("material", self.named(&scene.materials, Self::material, |w, i| &w.materials[i])?);
-        document.insert("mesh", self.named(&scene.meshes, Self::mesh, |w, i| &w.meshes[i])?);
-        document.insert("shape", listed(scene.shapes.iter().map(|shape| self.shape(shape))));
-        document.insert("instance", listed(scene.instances.iter().map(|instance| self.instance(instance))));
-        document.insert("light", listed(scene.lights.iter().map(|light| self.light(light))));
-        if let Some(environment) = &scene.environment {
-            document.insert("environment", Item::Table(self.environment(environment).table()));
         }
-        document.retain(|_, item| match item {
-            Item::Table(table) => !table.is_empty(),
-            Item::ArrayOfTables(list) => !list.is_empty(),
-            _ => true,
-        });
+        // A table of no keys is an environment too
+        if let Some(environment) = environment {
+            document.insert("environment", settings(environment));
+        }
         Ok(document)
     }
 
-    /// The tables of a store.
+    /// The tables of those objects of a store that something refers to, themselves among it.
     fn named<T>(
         &mut self,
-        store: &crate::scene::Store<T>,
+        store: &Store<T>,
+        called: impl Fn(&Self) -> &Called<T>,
         keys: impl Fn(&mut Self, Handle<T>, &T) -> Result<Keys>,
-        name: impl for<'b> Fn(&'b Self, usize) -> &'b String,
     ) -> Result<Item> {
+        let mut written = BTreeMap::new();
+        while let Some(handle) = called(self).next(&written) {
+            written.insert(handle, keys(self, handle, &store[handle])?);
+        }
         let mut all = Table::new();
         all.set_implicit(true);
-        for (handle, _, object) in store.iter() {
-            let keys = keys(self, handle, object)?;
-            all.insert(name(self, handle.index()), Item::Table(keys.table()));
+        for (handle, keys) in written {
+            all.insert(called(self).name(handle), Item::Table(keys.table()));
         }
         Ok(Item::Table(all))
-    }
-
-    fn texture_name(&self, handle: Handle<Texture>) -> &str {
-        &self.textures[handle.index()]
-    }
-
-    fn material_name(&self, handle: Handle<Material>) -> &str {
-        &self.materials[handle.index()]
-    }
-
-    fn mesh_name(&self, handle: Handle<Mesh>) -> &str {
-        &self.meshes[handle.index()]
     }
 
     /// The file of a picture, which is written when it is first asked for.
@@ -134,11 +139,6 @@ impl Writer<'_> {
         let name = self.files.add(&stem, "picture", extension, &bytes)?;
         self.images.insert(handle.index(), name.clone());
         Ok(name)
-    }
-
-    /// The error for what the language has no words for.
-    fn unsaid(&self, what: impl Into<String>) -> Error {
-        Error::output(what).help("change that in the scene that is converted")
     }
 }
 

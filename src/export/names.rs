@@ -1,6 +1,7 @@
 //! Names of objects, each once.
 
-use crate::scene::Store;
+use crate::scene::{Handle, Store};
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Names that are given.
@@ -38,9 +39,37 @@ impl Names {
     }
 }
 
+/// The names of the objects of a store, and those that something refers to.
+pub(super) struct Called<T> {
+    names: Vec<String>,
+    wanted: RefCell<BTreeSet<Handle<T>>>,
+}
+
+impl<T> Called<T> {
+    pub fn new(store: &Store<T>, noun: &str) -> Self {
+        Self { names: unique(store, noun), wanted: RefCell::default() }
+    }
+
+    /// The name of an object.
+    pub fn name(&self, handle: Handle<T>) -> &str {
+        &self.names[handle.index()]
+    }
+
+    /// The same, for what refers to the object.
+    pub fn refer(&self, handle: Handle<T>) -> &str {
+        self.wanted.borrow_mut().insert(handle);
+        self.name(handle)
+    }
+
+    /// The first object that something refers to and `written` has not.
+    pub fn next<U>(&self, written: &BTreeMap<Handle<T>, U>) -> Option<Handle<T>> {
+        self.wanted.borrow().iter().find(|handle| !written.contains_key(handle)).copied()
+    }
+}
+
 /// The names of the objects of a store: their own where nobody before has it, else with a number behind it. Objects without a name are
 /// called by what they are.
-pub(super) fn unique<T>(store: &Store<T>, noun: &str) -> Vec<String> {
+fn unique<T>(store: &Store<T>, noun: &str) -> Vec<String> {
     let mut names = Names::default();
     // Each keeps its own where it can, so that all of these are taken
     store.iter().for_each(|(_, name, _)| _ = names.take(name));

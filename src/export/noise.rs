@@ -3,8 +3,8 @@
 use super::Writer;
 use super::keys::Keys;
 use super::texture::stops;
-use crate::Result;
 use crate::scene::{Handle, Noise, NoiseSum, PerlinVariant, Spread, Texture, ValueNoise, VeinKind, Veins};
+use crate::{Error, Result};
 
 impl Writer<'_> {
     pub(super) fn noise(&self, noise: &Noise) -> Keys {
@@ -65,8 +65,9 @@ impl Writer<'_> {
             Spread::Spline(colors) => {
                 let usual = colors.iter().map(|color| color.to_array()).eq(Veins::MARBLE);
                 if veins.kind != VeinKind::Marble || !usual {
-                    let name = self.texture_name(handle);
-                    return Err(self.unsaid(format!("texture `{name}` has a spline of colours of its own")));
+                    let name = self.textures.name(handle);
+                    let error = Error::output(format!("texture `{name}` has a spline of colours of its own"));
+                    return Err(error.help("change that in the scene that is converted"));
                 }
             }
         }

@@ -2,78 +2,96 @@
 
 use super::Writer;
 use super::keys::{Keys, matrix, pair};
-use crate::scene::{Brick, Coordinates, Gradient, Metric, PatternSpace, Texture, Value, WorleyFeature};
+use crate::scene::{Brick, Coordinates, Dots, Gradient, Metric, PatternSpace, Value, WorleyFeature};
 use glam::{Affine3A, Vec2, Vec3};
 
 impl Writer<'_> {
-    /// A pattern; of other textures nothing.
-    pub(super) fn pattern(&self, texture: &Texture) -> Keys {
-        let mut keys;
-        match texture {
-            Texture::Checker { dimensions, even, odd, space } => {
-                keys = Keys::of_kind("checker");
-                keys.count("dimensions", *dimensions, 3);
-                self.put_color(&mut keys, "even", even, 1.0);
-                self.put_color(&mut keys, "odd", odd, 0.0);
-                keys.space(space);
+    pub(super) fn checker(
+        &self,
+        dimensions: u32,
+        even: &Value<Vec3>,
+        odd: &Value<Vec3>,
+        space: &PatternSpace,
+    ) -> Keys {
+        let mut keys = Keys::of_kind("checker");
+        keys.count("dimensions", dimensions, 3);
+        self.put_color(&mut keys, "even", even, 1.0);
+        self.put_color(&mut keys, "odd", odd, 0.0);
+        keys.space(space);
+        keys
+    }
+
+    pub(super) fn brick(&self, wall: &Brick) -> Keys {
+        let mut keys = Keys::of_kind("brick");
+        for (key, value, usual) in
+            [("brick", &wall.brick, Brick::CLAY), ("mortar", &wall.mortar, Brick::LIME)]
+        {
+            if *value != Value::Constant(usual) {
+                keys.set(key, self.color(value));
             }
-            Texture::Noise(noise) => keys = self.noise(noise),
-            Texture::ValueNoise(noise) => keys = self.value_noise(noise),
-            Texture::Brick(wall) => {
-                keys = Keys::of_kind("brick");
-                for (key, value, usual) in
-                    [("brick", &wall.brick, Brick::CLAY), ("mortar", &wall.mortar, Brick::LIME)]
-                {
-                    if *value != Value::Constant(usual) {
-                        keys.set(key, self.color(value));
-                    }
-                }
-                if wall.size != Vec2::new(3.0, 1.0) {
-                    keys.set("size", pair(wall.size));
-                }
-                keys.number("joint", wall.joint, 0.13);
-                keys.number("offset", wall.offset, 0.5);
-                keys.number("variation", wall.variation, 0.25);
-                keys.space(&wall.space);
-            }
-            Texture::Dots(dots) => {
-                keys = Keys::of_kind("dots");
-                self.put_color(&mut keys, "inside", &dots.inside, 1.0);
-                self.put_color(&mut keys, "outside", &dots.outside, 0.0);
-                keys.number("radius", dots.radius, 0.35);
-                keys.space(&dots.space);
-            }
-            Texture::Gradient { shape, low, high, space } => {
-                keys = Keys::of_kind("gradient");
-                let word = match shape {
-                    Gradient::Linear => "linear",
-                    Gradient::Cylindrical => "cylindrical",
-                    Gradient::Spherical => "spherical",
-                };
-                keys.word("shape", word, "linear");
-                self.low_and_high(&mut keys, low, high);
-                keys.space(space);
-            }
-            Texture::Worley { feature, metric, low, high, space } => {
-                keys = Keys::of_kind("worley");
-                let word = match feature {
-                    WorleyFeature::F1 => "f1",
-                    WorleyFeature::F2 => "f2",
-                    WorleyFeature::Difference => "f2_minus_f1",
-                    WorleyFeature::Edge => "edge",
-                };
-                keys.word("feature", word, "f1");
-                let word = match metric {
-                    Metric::Euclidean => "euclidean",
-                    Metric::Manhattan => "manhattan",
-                    Metric::Chebyshev => "chebyshev",
-                };
-                keys.word("metric", word, "euclidean");
-                self.low_and_high(&mut keys, low, high);
-                keys.space(space);
-            }
-            _ => keys = Keys::new(),
         }
+        if wall.size != Vec2::new(3.0, 1.0) {
+            keys.set("size", pair(wall.size));
+        }
+        keys.number("joint", wall.joint, 0.13);
+        keys.number("offset", wall.offset, 0.5);
+        keys.number("variation", wall.variation, 0.25);
+        keys.space(&wall.space);
+        keys
+    }
+
+    pub(super) fn dots(&self, dots: &Dots) -> Keys {
+        let mut keys = Keys::of_kind("dots");
+        self.put_color(&mut keys, "inside", &dots.inside, 1.0);
+        self.put_color(&mut keys, "outside", &dots.outside, 0.0);
+        keys.number("radius", dots.radius, 0.35);
+        keys.space(&dots.space);
+        keys
+    }
+
+    pub(super) fn gradient(
+        &self,
+        shape: Gradient,
+        low: &Value<Vec3>,
+        high: &Value<Vec3>,
+        space: &PatternSpace,
+    ) -> Keys {
+        let mut keys = Keys::of_kind("gradient");
+        let word = match shape {
+            Gradient::Linear => "linear",
+            Gradient::Cylindrical => "cylindrical",
+            Gradient::Spherical => "spherical",
+        };
+        keys.word("shape", word, "linear");
+        self.low_and_high(&mut keys, low, high);
+        keys.space(space);
+        keys
+    }
+
+    pub(super) fn worley(
+        &self,
+        feature: WorleyFeature,
+        metric: Metric,
+        low: &Value<Vec3>,
+        high: &Value<Vec3>,
+        space: &PatternSpace,
+    ) -> Keys {
+        let mut keys = Keys::of_kind("worley");
+        let word = match feature {
+            WorleyFeature::F1 => "f1",
+            WorleyFeature::F2 => "f2",
+            WorleyFeature::Difference => "f2_minus_f1",
+            WorleyFeature::Edge => "edge",
+        };
+        keys.word("feature", word, "f1");
+        let word = match metric {
+            Metric::Euclidean => "euclidean",
+            Metric::Manhattan => "manhattan",
+            Metric::Chebyshev => "chebyshev",
+        };
+        keys.word("metric", word, "euclidean");
+        self.low_and_high(&mut keys, low, high);
+        keys.space(space);
         keys
     }
 

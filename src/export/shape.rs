@@ -27,15 +27,15 @@ impl Writer<'_> {
             ShapeKind::Quadric(quadric) => keys = self::quadric(&quadric),
             ShapeKind::Patch(patch) => keys = self::patch(&patch),
         }
-        keys.set("material", self.material_name(shape.material));
+        keys.set("material", self.materials.refer(shape.material));
         placed(&mut keys, &shape.world_from_object, shape.at_close.as_ref());
         keys
     }
 
     pub(super) fn instance(&self, instance: &Instance) -> Keys {
         let mut keys = Keys::new();
-        keys.set("mesh", self.mesh_name(instance.mesh));
-        keys.set("material", self.material_name(instance.material));
+        keys.set("mesh", self.meshes.refer(instance.mesh));
+        keys.set("material", self.materials.refer(instance.material));
         placed(&mut keys, &instance.world_from_object, instance.at_close.as_ref());
         keys
     }

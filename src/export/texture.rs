@@ -71,7 +71,19 @@ impl Writer<'_> {
                 keys.set("value", self.color(value));
                 self::mapping(&mut keys, mapping);
             }
-            pattern => keys = self.pattern(pattern),
+            Texture::Checker { dimensions, even, odd, space } => {
+                keys = self.checker(*dimensions, even, odd, space);
+            }
+            Texture::Noise(noise) => keys = self.noise(noise),
+            Texture::ValueNoise(noise) => keys = self.value_noise(noise),
+            Texture::Brick(wall) => keys = self.brick(wall),
+            Texture::Dots(dots) => keys = self.dots(dots),
+            Texture::Gradient { shape, low, high, space } => {
+                keys = self.gradient(*shape, low, high, space);
+            }
+            Texture::Worley { feature, metric, low, high, space } => {
+                keys = self.worley(*feature, *metric, low, high, space);
+            }
         }
         Ok(keys)
     }
@@ -114,7 +126,7 @@ impl Writer<'_> {
     }
 
     fn glsl(&mut self, handle: Handle<Texture>, texture: &GlslTexture) -> Result<Keys> {
-        let name = self.texture_name(handle).to_owned();
+        let name = self.textures.name(handle).to_owned();
         let mut keys = Keys::of_kind("glsl");
         // What it includes is in it: lines that say where that was are of no more use
         let source: String =

@@ -130,6 +130,35 @@ fn whole_numbers_of_colours_are_srgb_and_floats_are_linear() {
 }
 
 #[test]
+fn a_second_set_and_tangents_of_any_length() {
+    let with = |names: &[&str], rows: [&str; 4]| {
+        let properties: String = names.iter().map(|name| format!("property float {name}\n")).collect();
+        let header = HEADER.replace("element face", &format!("{properties}element face"));
+        let [a, b, c, d] = rows;
+        ascii(&header, &format!("0 0 0 {a}\n1 0 0 {b}\n1 1 0 {c}\n0 1 0 {d}\n4 0 1 2 3\n"))
+    };
+    let read = |names: &[&str], rows| parse(with(names, rows).as_bytes()).unwrap();
+    let tangent = ["tx", "ty", "tz", "tw"];
+    let tangents = read(&tangent, ["3 0 4 1", "0 2 0 -0.5", "0 0 1e-30 0", "0 0 0 -1"]).tangents;
+    let expected = [[0.6, 0.0, 0.8, 1.0], [0.0, 1.0, 0.0, -1.0], [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 0.0, -1.0]];
+    for (found, expected) in tangents.iter().zip(expected) {
+        assert!((*found - Vec4::from_array(expected)).length() < 1e-6, "{found}, expected {expected:?}");
+    }
+    // One that has no side is no tangent, and one number is no set
+    assert!(read(&tangent[..3], ["1 0 0"; 4]).tangents.is_empty());
+    assert!(read(&["u1"], ["1"; 4]).uvs1.is_empty());
+    let mesh = read(&["v1", "u1"], ["1 2", "3 4", "5 6", "7 8"]);
+    assert!(mesh.uvs.is_empty());
+    assert_eq!(mesh.uvs1[..2], [Vec2::new(2.0, 1.0), Vec2::new(4.0, 3.0)]);
+    for (names, right, wrong, which) in
+        [(&tangent[..], "1 0 0 1", "1 0 nan 1", "tz"), (&["u1", "v1"][..], "0 0", "inf 0", "u1")]
+    {
+        let message = error(with(names, [right, wrong, right, right]));
+        assert!(message.contains(&format!("{which} of vertex 1 is not a finite number")), "{message}");
+    }
+}
+
+#[test]
 fn elements_without_properties_take_no_time() {
     let header = format!("element nothing 4294967295\n{HEADER}");
     let text = ascii(&header, "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3");

@@ -81,7 +81,7 @@ fn pictures_are_read_back() {
     }
     let folder = tempfile::tempdir().unwrap();
     let error = dapple::export::write_scene(
-        &with_picture(Image::EMPTY),
+        &crate::all_used(&with_picture(Image::EMPTY)),
         &folder.path().join("a.toml"),
         false,
         &mut |_| Ok(()),

@@ -343,6 +343,24 @@ fn a_model_that_is_made_flat_is_refused() {
     assert_eq!(error.place.unwrap().line, 4);
 }
 
+#[test]
+fn what_nothing_uses_is_left_out() {
+    let pbrt = pbrt(
+        "MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\nMakeNamedMaterial \"b\" \"string type\" \"mix\" \"string materials\" [\"a\" \"a\"]\n\
+        Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"i.png\"\nMaterial \"conductor\"\nShape \"sphere\"",
+    );
+    let lamp = "[texture.t]\nkind = \"image\"\nfile = \"i.png\"\n[material.m]\nkind = \"diffuse\"\nemission = { texture = \"t\" }\n\
+        emission_scale = 2\n[[shape]]\nkind = \"sphere\"\nradius = 1\nmaterial = \"m\"\n";
+    for (name, text, left) in [("a.pbrt", pbrt.as_str(), [0, 1]), ("a.toml", lamp, [1, 1])] {
+        let folder = folder(&[(name, text)]);
+        let out = folder.path().join("out.toml");
+        write_scene(&read(&folder.path().join(name)), &out, false, &mut |_| Ok(())).unwrap();
+        let (scene, warnings) = read_scene(&out, &[]).unwrap();
+        assert_eq!([scene.textures.len(), scene.materials.len()], left, "{name}");
+        assert!(warnings.is_empty(), "{name}: {warnings:?}");
+    }
+}
+
 /// Names of all in a folder.
 fn names(folder: &Path) -> Vec<PathBuf> {
     let mut names: Vec<_> =

@@ -16,8 +16,10 @@ use dapple::Result;
 use dapple::export::write_scene;
 use dapple::import::{Assets, Model, ModelChoice, read_scene, read_scene_with};
 use dapple::scene::{
-    GlslTexture, Handle, Image, ImageTexture, Mesh, MeshPart, Noise, NoiseSum, Scene, Store, Texels, Texture,
+    GlslTexture, Handle, Image, ImageTexture, Instance, Material, Mesh, MeshPart, Noise, NoiseSum, Scene,
+    Shape, ShapeKind, Store, Surface, Texels, Texture, Value,
 };
+use glam::{Affine3A, Vec3};
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::fs;
@@ -140,14 +142,44 @@ fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     all
 }
 
+/// The scene with a use of each of its objects: what nothing uses is not written.
+fn all_used(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let textures: Vec<_> = scene.textures.iter().map(|(handle, ..)| handle).collect();
+    for texture in textures {
+        let surface = Surface::Unlit { color: Value::Texture(texture) };
+        scene.materials.add("a use", Material::new(surface, None));
+    }
+    let center = Vec3::new(0.0, 1e6, 0.0);
+    let kind = ShapeKind::Sphere { center, radius: 1.0, pole: Vec3::Y, meridian: Vec3::X };
+    let world_from_object = Affine3A::IDENTITY;
+    for (material, ..) in scene.materials.iter() {
+        scene.shapes.push(Shape { name: String::new(), kind, material, world_from_object, at_close: None });
+    }
+    let Some((material, ..)) = scene.materials.iter().next() else { return scene };
+    for (mesh, ..) in scene.meshes.iter() {
+        scene.instances.push(Instance {
+            name: String::new(),
+            mesh,
+            material,
+            world_from_object,
+            at_close: None,
+        });
+    }
+    scene
+}
+
 /// Writes a scene, reads it, compares; and the same again, for the same files.
 pub fn same_again(scene: &Scene, name: &str) -> Scene {
+    let scene = &all_used(scene);
     let [first, second] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let [a, b] = [&first, &second].map(|folder| folder.path().join("out.toml"));
     write_scene(scene, &a, false, &mut |_| Ok(())).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let (read, _) = read_scene(&a, &[]).unwrap_or_else(|error| {
+    let (read, warnings) = read_scene(&a, &[]).unwrap_or_else(|error| {
         panic!("{name}: {error}\n{}", fs::read_to_string(&a).unwrap());
     });
+    let unused = warnings.iter().find(|warning| warning.message.contains("nothing uses"));
+    assert!(unused.is_none(), "{name}: {unused:?}");
     if let Some(what) = difference(scene, &read) {
         panic!("{name}: {what}");
     }

@@ -121,6 +121,14 @@ fn meshes_and_instances() {
     let mesh = |rest: &str| format!("[mesh.m]\n{points}{rest}");
     let cases = [
         (
+            mesh("triangles = [[0, 1, 2]]\nround = true"),
+            "6:9: `round` is for meshes on the sphere of radius 1 about the origin, and vertex 0 is not on it; move the vertices, and scale the instance",
+        ),
+        (
+            mesh("triangles = [[0, 1, 2]]\nround = 1"),
+            "6:9: `round` must be true or false, found a whole number",
+        ),
+        (
             "[mesh.m]\nsmooth = true".into(),
             "3:1: mesh `m` has neither `file` nor `positions`; add one of them",
         ),
@@ -237,6 +245,30 @@ fn lights_and_environment() {
         (
             "[[light]]\nkind = 'point'\nposition = [0, 0, 0]\nintensity = 1\ntransform = [{ scale = 2 }]",
             "5:13: the `transform` of point light 1 is more than a rotation; use `rotate` steps only",
+        ),
+        (
+            "[[light]]\nkind = 'spot'\nposition = [0, 0, 0]\nintensity = 1\ntransform = [{ translate = [0, 0, 1] }]",
+            "5:13: the `transform` of spot light 1 is more than a rotation; use `rotate` steps only",
+        ),
+        (
+            "[[light]]\nkind = 'spot'\nposition = [0, 0, 0]\nintensity = 1\ntransform = []\ntarget = [0, 0, 1]",
+            "6:10: `target` has no meaning beside `transform`, which turns a light from −z with y up; keep one or the other",
+        ),
+        (
+            "[[light]]\nkind = 'projection'\nposition = [0, 0, 0]\nintensity = 1\ntransform = [{ scale = [1, 1, -1] }]",
+            "5:13: the `transform` of projection light 1 is more than a rotation; use `rotate` steps only",
+        ),
+        (
+            "[[light]]\nkind = 'projection'\nposition = [0, 0, 0]\nintensity = 1\ntransform = []\nup = [0, 1, 0]",
+            "6:6: `up` has no meaning beside `transform`, which turns a light from −z with y up; keep one or the other",
+        ),
+        (
+            "[[light]]\nkind = 'distant'\nirradiance = 1\ntransform = [{ matrix = [1, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0] }]",
+            "4:13: the `transform` of distant light 1 is more than a rotation; use `rotate` steps only",
+        ),
+        (
+            "[[light]]\nkind = 'distant'\nirradiance = 1\ntransform = []\nfrom = [0, 1, 0]",
+            "5:8: `from` has no meaning beside `transform`, which turns a light from −z with y up; keep one or the other",
         ),
         (
             "[[light]]\nkind = 'projection'\nposition = [0, 0, 0]\nintensity = 1\ntarget = [1, 0, 0]\nup = [2, 0, 0]",

@@ -108,6 +108,30 @@ fn patterns() {
 #[test]
 fn mappings_and_stacks() {
     check(&[
+        (
+            "[texture.t]\nkind = 'mapped'\nvalue = 1\nmapping = 'planar'\nmapping_matrix = [1, 0, 0]",
+            "5:18: `mapping_matrix` must be a list of 12 or 16 numbers, row by row, found a list of 3",
+        ),
+        (
+            "[texture.t]\nkind = 'mapped'\nvalue = 1\nmapping = 'spherical'\nmapping_matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]\npole = [0, 0, 1]",
+            "6:8: `pole` has no meaning beside `mapping_matrix`; keep one or the other",
+        ),
+        (
+            "[texture.t]\nkind = 'mapped'\nvalue = 1\nmapping = 'uv'\nmapping_matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]",
+            "5:18: `mapping_matrix` has no meaning for the mapping \"uv\"; remove it, or choose another `mapping`",
+        ),
+        (
+            "[texture.t]\nkind = 'checker'\nmatrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2]",
+            "3:10: the last row of `matrix` is [0, 0, 0, 2], must be [0, 0, 0, 1]",
+        ),
+        (
+            "[texture.t]\nkind = 'checker'\nmatrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, nan, 0]",
+            "3:41: `matrix[10]` is nan, must be finite",
+        ),
+        (
+            "[texture.t]\nkind = 'checker'\nmatrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]\ntransform = []",
+            "4:13: checker texture `t` has both `transform` and `matrix`; keep one of them",
+        ),
         ("[texture.t]\nkind = 'mapped'\nvalue = 1", "1:1: `mapping` is missing in mapped texture `t`"),
         (
             "[texture.t]\nkind = 'mapped'\nvalue = 1\nmapping = 'cube'\npole = [0, 0, 1]",
