@@ -10,6 +10,7 @@
 mod common;
 mod files;
 mod kept;
+mod kinds;
 
 use common::references;
 use dapple::Result;
