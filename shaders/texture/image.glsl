@@ -43,8 +43,8 @@ vec4 texel(ImageTexture image, uint format, bool coarse, uint x, uint y)
     return value;
 }
 
-// A texel index outside 0..n to one inside; `outside` is set where the picture is black.
-uint wrap_index(int i, int n, uint mode, inout bool outside)
+// Two neighbours i and i + 1, which may be outside 0..n, to indices inside; `outside` says where the picture is black.
+uvec2 wrap_pair(int i, int n, uint mode, out bvec2 outside)
 {
     // Division is not exact on every device: the quotient may be off by one
     int turns = int(floor(float(i) / float(n)));
@@ -52,10 +52,18 @@ uint wrap_index(int i, int n, uint mode, inout bool outside)
     int off = rest < 0 ? -1 : rest >= n ? 1 : 0;
     turns += off;
     rest = clamp(rest - off * n, 0, n - 1);
-    if (mode == WRAP_REPEAT) return uint(rest);
-    if (mode == WRAP_MIRROR) return uint((turns & 1) == 0 ? rest : n - 1 - rest);
-    outside = outside || (mode == WRAP_BLACK && (i < 0 || i >= n));
-    return uint(clamp(i, 0, n - 1));
+    bool last = rest == n - 1;
+    ivec2 both = ivec2(i, i + 1);
+    ivec2 inside = ivec2(rest, last ? 0 : rest + 1);
+    outside = bvec2(false);
+    if (mode == WRAP_MIRROR) {
+        bvec2 turned = bvec2((turns & 1) != 0, ((last ? turns + 1 : turns) & 1) != 0);
+        inside = mix(inside, n - 1 - inside, turned);
+    } else if (mode != WRAP_REPEAT) {
+        inside = clamp(both, 0, n - 1);
+        if (mode == WRAP_BLACK) outside = notEqual(both, inside);
+    }
+    return uvec2(inside);
 }
 
 #ifdef OCTAHEDRAL_PICTURES
@@ -66,18 +74,18 @@ ivec2 octahedral_place(ivec2 at, ivec2 size)
     if (at.y < 0 || at.y >= size.y) at = ivec2(size.x - 1 - at.x, at.y < 0 ? -1 - at.y : 2 * size.y - 1 - at.y);
     return at;
 }
-#endif
 
-vec4 wrapped_texel(ImageTexture image, uint format, bool coarse, ivec2 at)
+// The same for four neighbours, of which i is the first.
+void octahedral_places(ivec2 i, ivec2 size, out uvec4 column, out uvec4 row)
 {
-    bool outside = false;
-#ifdef OCTAHEDRAL_PICTURES
-    if ((image.flags & FLAG_OCTAHEDRAL) != 0u) at = octahedral_place(at, ivec2(image.size));
-#endif
-    uint x = wrap_index(at.x, int(image.size.x), image.flags & WRAP_MASK, outside);
-    uint y = wrap_index(at.y, int(image.size.y), (image.flags >> WRAP_V_SHIFT) & WRAP_MASK, outside);
-    return outside ? vec4(0.0) : texel(image, format, coarse, x, y);
+    uvec2 p00 = uvec2(octahedral_place(i, size));
+    uvec2 p10 = uvec2(octahedral_place(i + ivec2(1, 0), size));
+    uvec2 p01 = uvec2(octahedral_place(i + ivec2(0, 1), size));
+    uvec2 p11 = uvec2(octahedral_place(i + ivec2(1, 1), size));
+    column = uvec4(p00.x, p10.x, p01.x, p11.x);
+    row = uvec4(p00.y, p10.y, p01.y, p11.y);
 }
+#endif
 
 // uv of the surface to that of the picture. The limit keeps the place of a wild uv within what an int holds.
 vec2 image_place(ImageTexture image, vec2 uv)
@@ -85,28 +93,31 @@ vec2 image_place(ImageTexture image, vec2 uv)
     return clamp(image.uv_column0 * uv.x + image.uv_column1 * uv.y + image.uv_offset, -16384.0, 16384.0);
 }
 
-// Texel centres are at (i + ½) / n, and each of the four texels is wrapped by itself.
-vec4 bilinear_lookup(ImageTexture image, uint format, bool coarse, vec2 st)
+// Texel centres are at (i + ½) / n, and each of the four texels is wrapped by itself; or the texel that the place is in.
+vec4 picture_lookup(ImageTexture image, uint format, bool coarse, bool nearest, vec2 st)
 {
-    vec2 p = vec2(st.x, 1.0 - st.y) * vec2(image.size) - 0.5;
+    vec2 size = vec2(image.size);
+    vec2 p = vec2(st.x, 1.0 - st.y) * size - 0.5;
+    // Rows are counted from the top, but [0, 1) is inside: v = 0 is in the last row, v = 1 is not in the first
+    if (nearest) p = vec2(floor(st.x * size.x), size.y - 1.0 - floor(st.y * size.y));
     vec2 corner = floor(p);
     vec2 f = p - corner;
     ivec2 i = ivec2(corner);
-    vec4 top = mix(wrapped_texel(image, format, coarse, i), wrapped_texel(image, format, coarse, i + ivec2(1, 0)), f.x);
-    i.y += 1;
-    vec4 bottom = mix(wrapped_texel(image, format, coarse, i), wrapped_texel(image, format, coarse, i + ivec2(1, 0)), f.x);
-    return mix(top, bottom, f.y);
-}
-
-vec4 image_lookup(ImageTexture image, uint format, vec2 uv)
-{
-    vec2 st = image_place(image, uv);
-    if ((image.flags & FLAG_NEAREST) != 0u) {
-        // Rows are counted from the top, but [0, 1) is inside: v = 0 is in the last row, v = 1 is not in the first
-        ivec2 at = ivec2(floor(st * vec2(image.size)));
-        return wrapped_texel(image, format, false, ivec2(at.x, int(image.size.y) - 1 - at.y));
-    }
-    return bilinear_lookup(image, format, false, st);
+    bvec2 outside_x;
+    bvec2 outside_y;
+    uvec2 x = wrap_pair(i.x, int(image.size.x), image.flags & WRAP_MASK, outside_x);
+    uvec2 y = wrap_pair(i.y, int(image.size.y), (image.flags >> WRAP_V_SHIFT) & WRAP_MASK, outside_y);
+    uvec4 column = x.xyxy;
+    uvec4 row = y.xxyy;
+#ifdef OCTAHEDRAL_PICTURES
+    if ((image.flags & FLAG_OCTAHEDRAL) != 0u) octahedral_places(i, ivec2(image.size), column, row);
+#endif
+    vec4 t00 = outside_x.x || outside_y.x ? vec4(0.0) : texel(image, format, coarse, column.x, row.x);
+    if (nearest) return t00;
+    vec4 t10 = outside_x.y || outside_y.x ? vec4(0.0) : texel(image, format, coarse, column.y, row.y);
+    vec4 t01 = outside_x.x || outside_y.y ? vec4(0.0) : texel(image, format, coarse, column.z, row.z);
+    vec4 t11 = outside_x.y || outside_y.y ? vec4(0.0) : texel(image, format, coarse, column.w, row.w);
+    return mix(mix(t00, t10, f.x), mix(t01, t11, f.x), f.y);
 }
 
 // Channel, inversion and factor of a texture. Alpha is kept.
@@ -125,5 +136,6 @@ vec4 image_value(ImageTexture image, vec4 value)
 vec4 image_texture(uint w, uint format, TextureContext context)
 {
     ImageTexture image = image_texture_fetch(w);
-    return image_value(image, image_lookup(image, format, context.uv));
+    bool nearest = (image.flags & FLAG_NEAREST) != 0u;
+    return image_value(image, picture_lookup(image, format, false, nearest, image_place(image, context.uv)));
 }

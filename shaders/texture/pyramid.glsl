@@ -22,7 +22,7 @@ vec4 image_texture_trilinear(uint w, uint format, TextureContext context)
     uint last = (image.flags >> LEVELS_SHIFT) - 1u;
     float level = min(log2(max(max(texels.x, texels.y), 1.0)), float(last));
     uint fine = uint(level);
-    vec4 near = bilinear_lookup(level_of(image, w, fine), format, fine > 0u, st);
-    vec4 far = bilinear_lookup(level_of(image, w, min(fine + 1u, last)), format, true, st);
+    vec4 near = picture_lookup(level_of(image, w, fine), format, fine > 0u, false, st);
+    vec4 far = picture_lookup(level_of(image, w, min(fine + 1u, last)), format, true, false, st);
     return image_value(image, mix(near, far, level - float(fine)));
 }

@@ -8,18 +8,6 @@ vec4 stack_texel(Stack stack, ImageTexture slice, uint format, uvec3 at, bool ou
     return outside ? vec4(0.0) : texel(slice, format, false, at.x, stack.size.y - 1u - at.y);
 }
 
-uvec3 stack_wrap(Stack stack, ivec3 at, out bvec3 outside)
-{
-    bool x = false;
-    bool y = false;
-    bool z = false;
-    uvec3 inside = uvec3(wrap_index(at.x, int(stack.size.x), stack.flags & WRAP_MASK, x),
-                         wrap_index(at.y, int(stack.size.y), (stack.flags >> WRAP_V_SHIFT) & WRAP_MASK, y),
-                         wrap_index(at.z, int(stack.size.z), (stack.flags >> WRAP_W_SHIFT) & WRAP_MASK, z));
-    outside = bvec3(x, y, z);
-    return inside;
-}
-
 // Bilinear in a slice, between two columns and two rows.
 vec4 stack_plane(Stack stack, ImageTexture slice, uint format, uvec4 at, uint z, vec2 f, bvec4 outside, bool beyond)
 {
@@ -36,18 +24,24 @@ vec4 stack_texture(uint w, uint format, vec3 p)
     Stack stack = stack_unpack(fetch_textures(w), fetch_textures(w + 1u));
     ImageTexture slice = ImageTexture(0u, stack.pitch, stack.size.xy, vec2(0.0), vec2(0.0), vec2(0.0), stack.scale, stack.flags);
     vec3 place = clamp(p, -16384.0, 16384.0) * vec3(stack.size);
-    bvec3 out0;
-    bvec3 out1;
-    if ((stack.flags & FLAG_NEAREST) != 0u) {
-        uvec3 at = stack_wrap(stack, ivec3(floor(place)), out0);
-        return image_value(slice, stack_texel(stack, slice, format, at, any(out0)));
+    bool nearest = (stack.flags & FLAG_NEAREST) != 0u;
+    vec3 from = nearest ? place : place - 0.5;
+    vec3 corner = floor(from);
+    vec3 f = from - corner;
+    ivec3 i = ivec3(corner);
+    bvec2 outside_x;
+    bvec2 outside_y;
+    bvec2 outside_z;
+    uvec2 x = wrap_pair(i.x, int(stack.size.x), stack.flags & WRAP_MASK, outside_x);
+    uvec2 y = wrap_pair(i.y, int(stack.size.y), (stack.flags >> WRAP_V_SHIFT) & WRAP_MASK, outside_y);
+    uvec2 z = wrap_pair(i.z, int(stack.size.z), (stack.flags >> WRAP_W_SHIFT) & WRAP_MASK, outside_z);
+    if (nearest) {
+        bool outside = outside_x.x || outside_y.x || outside_z.x;
+        return image_value(slice, stack_texel(stack, slice, format, uvec3(x.x, y.x, z.x), outside));
     }
-    vec3 corner = floor(place - 0.5);
-    vec3 f = place - 0.5 - corner;
-    uvec3 a = stack_wrap(stack, ivec3(corner), out0);
-    uvec3 b = stack_wrap(stack, ivec3(corner) + 1, out1);
-    bvec4 across = bvec4(out0.xy, out1.xy);
-    vec4 below = stack_plane(stack, slice, format, uvec4(a.xy, b.xy), a.z, f.xy, across, out0.z);
-    vec4 above = stack_plane(stack, slice, format, uvec4(a.xy, b.xy), b.z, f.xy, across, out1.z);
+    uvec4 at = uvec4(x.x, y.x, x.y, y.y);
+    bvec4 across = bvec4(outside_x.x, outside_y.x, outside_x.y, outside_y.y);
+    vec4 below = stack_plane(stack, slice, format, at, z.x, f.xy, across, outside_z.x);
+    vec4 above = stack_plane(stack, slice, format, at, z.y, f.xy, across, outside_z.y);
     return image_value(slice, mix(below, above, f.z));
 }

@@ -6,7 +6,7 @@ use super::event::{Event, Where};
 use super::job;
 use super::stop::Stop;
 use dapple::gpu::{DeviceChoice, DeviceType, Gpu, validation_from_environment};
-use dapple::live::{About, Address, Generation, Live, Request, Server, State};
+use dapple::live::{About, Address, Live, Request, Server, Shot, State};
 use dapple::shader::CacheOptions;
 use dapple::{Error, Result};
 use std::path::Path;
@@ -100,7 +100,7 @@ impl Told {
             && shot.generation.number != self.generation
         {
             self.generation = shot.generation.number;
-            tell_generation(&shot.generation, state.latency, console);
+            tell_generation(shot, state.latency, console);
         }
     }
 }
@@ -119,7 +119,8 @@ fn tell_error(error: &Error, console: &mut Console) {
     console.result(&format!("{place}error: {}{help}", error.message));
 }
 
-fn tell_generation(generation: &Generation, latency: Option<f64>, console: &mut Console) {
+fn tell_generation(shot: &Shot, latency: Option<f64>, console: &mut Console) {
+    let generation = &shot.generation;
     for warning in &generation.warnings {
         if console.json() {
             console.event(&Event::Warning {
@@ -131,6 +132,7 @@ fn tell_generation(generation: &Generation, latency: Option<f64>, console: &mut 
         }
     }
     let (number, opened) = (generation.number, &generation.opened);
+    let driver_s = opened.driver_seconds + shot.warm_seconds;
     if console.json() {
         return console.event(&Event::Generation {
             number,
@@ -138,7 +140,7 @@ fn tell_generation(generation: &Generation, latency: Option<f64>, console: &mut 
             read_s: generation.read_seconds,
             prepare_s: opened.displace_seconds + opened.prepare_seconds,
             compile_s: opened.compile_seconds,
-            driver_s: opened.driver_seconds,
+            driver_s,
             upload_s: opened.upload_seconds,
             trees: opened.trees,
             kernels: opened.kernels,
@@ -152,7 +154,7 @@ fn tell_generation(generation: &Generation, latency: Option<f64>, console: &mut 
         ms(generation.read_seconds),
         ms(opened.displace_seconds + opened.prepare_seconds),
         ms(opened.compile_seconds),
-        ms(opened.driver_seconds),
+        ms(driver_s),
         ms(opened.upload_seconds),
     ));
 }

@@ -64,6 +64,8 @@ struct Canvas {
     generation: Arc<Generation>,
     picture: Accumulation<Arc<Renderer>>,
     edited: Option<Instant>,
+    /// What the driver took to compile what it had left for the first dispatch.
+    warm: Duration,
     begun: Instant,
     shown: Option<Instant>,
     /// What the last shot took.
@@ -77,8 +79,9 @@ impl Canvas {
         let renderer = generation.renderer.clone();
         let on_cpu = renderer.device().kind == DeviceType::Cpu;
         let picture = Accumulation::soon(renderer, 0, spp)?;
+        let warm = picture.warm()?;
         let (begun, cost) = (Instant::now(), Duration::ZERO);
-        Ok(Self { generation, picture, edited, begun, shown: None, cost, done: false, on_cpu })
+        Ok(Self { generation, picture, edited, warm, begun, shown: None, cost, done: false, on_cpu })
     }
 
     /// One slice more, and a shot when it is time for one.
@@ -118,6 +121,7 @@ impl Canvas {
             serial: old.shot.as_ref().map_or(0, |shot| shot.serial) + 1,
             spp: progress.spp,
             rate,
+            warm_seconds: self.warm.as_secs_f64(),
         });
         let latency = self.edited.map(|edited| edited.elapsed().as_secs_f64());
         show.change(|state| {

@@ -19,6 +19,8 @@ pub struct Shot {
     pub spp: u32,
     /// Samples a second of this generation.
     pub rate: f64,
+    /// Seconds in which the driver compiled what it had left for the first dispatch.
+    pub warm_seconds: f64,
 }
 
 /// What there is to see now.

@@ -11,7 +11,7 @@ use crate::scene::Rect;
 use crate::{Error, Result};
 use std::ops::Deref;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Bytes of film that are kept on the device at once.
 const MOST_FILM_BYTES: u64 = 1 << 30;
@@ -101,6 +101,17 @@ impl<R: Deref<Target = Renderer>> Accumulation<R> {
         picture.plan = picture.plan.clone().soon();
         picture.slots = picture.slots.min(SOON_SLOTS);
         Ok(picture)
+    }
+
+    /// Has the driver do now what it puts off until a kernel is dispatched for the first time: lavapipe makes half of its code then.
+    ///
+    /// # Errors
+    ///
+    /// When the device fails.
+    pub fn warm(&self) -> Result<Duration> {
+        let start = Instant::now();
+        self.waves[0].warm(&self.renderer.gpu, &self.renderer.kernels)?;
+        Ok(start.elapsed())
     }
 
     /// Sends the next slice to the device and waits for the one before; none when all have been sent.

@@ -30,7 +30,7 @@ pub struct Opened {
     pub prepare_seconds: f64,
     /// Seconds of looking for kernels and compiling GLSL.
     pub compile_seconds: f64,
-    /// Seconds in which the driver compiled.
+    /// Seconds in which the driver compiled; see [`Accumulation::warm`](super::Accumulation::warm) for the rest.
     pub driver_seconds: f64,
     /// Seconds of sending buffers.
     pub upload_seconds: f64,

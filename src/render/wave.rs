@@ -90,6 +90,13 @@ impl Wave {
         Ok(Self { frame, counters, seen, bindings, slots, rounds, ticket: None })
     }
 
+    /// Dispatches every kernel of a usual round over nothing.
+    pub(super) fn warm(&self, gpu: &Gpu, kernels: &Kernels) -> Result<()> {
+        let stages =
+            [Stage::Camera, SHORT.intersect, SHORT.shadow, Stage::Shade, Stage::Advance, Stage::Film];
+        gpu.run(&stages.map(|stage| self.one(kernels, stage, [0, 1])))
+    }
+
     /// Bytes of a slot in all buffers of a wave.
     pub(super) fn slot_bytes(scene: &Frame) -> u64 {
         let words = RAY_WORDS + HIT_WORDS + PATH_WORDS + SHADOW_WORDS + AOV_WORDS;

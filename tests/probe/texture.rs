@@ -33,16 +33,16 @@ fn indices_wrap_as_documented() {
     let glsl = "#include \"texture/image.glsl\"
         void probe(uint i) {
             ivec4 p = ivec4(fetch_points(i));
-            bool outside = false;
-            uint at = wrap_index(p.x, p.y, uint(p.z), outside);
-            store_values(i, uvec4(at, outside ? 1u : 0u, 0u, 0u));
+            bvec2 outside;
+            uvec2 at = wrap_pair(p.x, p.y, uint(p.z), outside);
+            store_values(i, uvec4(at, uvec2(outside)));
         }";
     let mut inputs: Vec<Word> = Vec::new();
     for mode in [WRAP_REPEAT, WRAP_CLAMP, WRAP_MIRROR, WRAP_BLACK] {
         for n in 1..=9_i32 {
             inputs.extend((-50..=50_i32).map(|i| [i as u32, n as u32, mode, 0]));
         }
-        // The largest picture and the wildest uv that image_lookup lets through
+        // The largest picture and the wildest uv that image_place lets through
         for n in [3, 255, 1000, 4096, 16_384_i32] {
             for turn in [-1000, -7, 0, 9, 1000] {
                 inputs.extend([-1, 0, 1, n - 1].map(|i| [(turn * n + i) as u32, n as u32, mode, 0]));
@@ -52,7 +52,9 @@ fn indices_wrap_as_documented() {
     let values = Probe::new().both(glsl, &inputs, inputs.len(), inputs.len());
     for (input, value) in inputs.iter().zip(&values) {
         let [i, n, mode, _] = *input;
-        let (at, outside) = texture::wrap_index(i as i32, n as i32, mode);
-        assert_eq!(value[..2], [at as u32, u32::from(outside)], "{} of {n}, mode {mode}", i as i32);
+        let [(at, outside), (next, outside_next)] =
+            [0, 1].map(|step| texture::wrap_index(i as i32 + step, n as i32, mode));
+        let expected = [at as u32, next as u32, u32::from(outside), u32::from(outside_next)];
+        assert_eq!(*value, expected, "{} of {n}, mode {mode}", i as i32);
     }
 }

@@ -205,6 +205,9 @@ impl Now {
     fn see(&mut self, shot: &Shot) {
         (self.serial, self.spp, self.rate) = (shot.serial, shot.spp, shot.rate);
         self.gain = film::gain(&shot.picture, &shot.generation.film);
+        if let Some(times) = &mut self.times {
+            times.driver += shot.warm_seconds;
+        }
     }
 }
 
