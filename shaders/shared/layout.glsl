@@ -16,6 +16,7 @@ const uint FILM_DEPTH = 26u; // Film: sum of depths, signed, two words.
 const uint FILM_NORMAL = 28u; // Film: sums of normals, signed, two words a coordinate.
 const uint FILM_DEPTH_HITS = 34u; // Film: samples that have a depth.
 const uint AOV_BITS = 20u; // Bits behind the point of the sums of albedo and normal.
+const uint NUMBER_FACTOR = 10368889u; // What a number is multiplied by, in 24 bits, to be the three bytes of a colour; odd, so that there is a way back.
 const uint RAY_WORDS = 2u; // Words of the ray of a slot.
 const uint HIT_WORDS = 1u; // Words of what the ray of a slot met.
 const uint PATH_WORDS = 3u; // Words of the path of a slot.

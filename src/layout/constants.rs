@@ -43,6 +43,8 @@ constants! {
     FILM_DEPTH_HITS = 34;
     /// Bits behind the point of the sums of albedo and normal.
     AOV_BITS = 20;
+    /// What a number is multiplied by, in 24 bits, to be the three bytes of a colour; odd, so that there is a way back.
+    NUMBER_FACTOR = 0x009E_3779;
     /// Words of the ray of a slot.
     RAY_WORDS = 2;
     /// Words of what the ray of a slot met.

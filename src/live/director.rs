@@ -1,7 +1,7 @@
 //! The thread that waits for edits and makes generations of them.
 
 use super::painter::Order;
-use super::{Event, Show, Studio, Watch};
+use super::{Event, Picks, Show, State, Studio, Watch};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,6 +18,7 @@ const LONGEST: Duration = Duration::from_millis(250);
 struct Happened {
     edited: BTreeSet<PathBuf>,
     looked: bool,
+    asked: bool,
     quit: bool,
 }
 
@@ -52,6 +53,9 @@ pub(super) fn direct(
                 cause = Some(begun);
                 break;
             }
+            if happened.asked {
+                pick(&mut studio, show);
+            }
         }
     }
 }
@@ -64,9 +68,22 @@ impl Happened {
                 studio.set_camera(camera);
                 self.looked = true;
             }
+            Event::Pick => self.asked = true,
             Event::Quit => self.quit = true,
         }
     }
+}
+
+/// Finds out what is under the pixels of the last good generation, once.
+fn pick(studio: &mut Studio, show: &Show) {
+    let State { generation, picks, error, .. } = show.state();
+    let Some(number) = generation.map(|generation| generation.number) else { return };
+    if error.is_some() || picks.is_some_and(|picks| picks.generation == number) {
+        return;
+    }
+    // Files that have just become others are no error here: that edit is yet to come
+    let picks = studio.picks(number).unwrap_or_else(|_| Picks::none(number));
+    show.change(|state| state.picks = Some(Arc::new(picks)));
 }
 
 /// One transaction.

@@ -7,11 +7,13 @@
 mod director;
 mod files;
 mod painter;
+mod picks;
 mod serve;
 mod show;
 mod studio;
 mod watch;
 
+pub use picks::Picks;
 pub use serve::{About, Address, Server};
 pub use show::{Shot, Show, State};
 pub use studio::{Adjust, Generation, Request, Studio};
@@ -29,6 +31,8 @@ use std::thread::JoinHandle;
 pub enum Event {
     /// Files were edited.
     Edited(Vec<PathBuf>),
+    /// Somebody asks what is under the pixels.
+    Pick,
     /// Look from elsewhere; none = from where the scene says.
     Look(Option<Camera>),
     /// No more is wanted.

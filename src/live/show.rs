@@ -1,6 +1,6 @@
 //! What there is to see: written by the threads that make it, read by those that show it.
 
-use super::Generation;
+use super::{Generation, Picks};
 use crate::Error;
 use crate::film::Picture;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -32,6 +32,8 @@ pub struct State {
     pub shot: Option<Arc<Shot>>,
     /// The last picture of the generation before.
     pub before: Option<Arc<Shot>>,
+    /// What is under the pixels of a generation that was asked about.
+    pub picks: Option<Arc<Picks>>,
     /// What is wrong with the files as they are now.
     pub error: Option<Error>,
     /// It is looked at from elsewhere than the scene says.

@@ -1,6 +1,7 @@
 //! A scene that is edited: from its files to a renderer, again and again. Each time is a transaction: what fails leaves the renderer
 //! before as it is.
 
+use super::Picks;
 use super::files::Files;
 use super::watch::names;
 use crate::Result;
@@ -130,8 +131,21 @@ impl Studio {
         outcome
     }
 
-    fn open(&mut self) -> Result<Generation> {
-        let start = Instant::now();
+    /// Renders what is under the pixels of a generation, from the files as they are now.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::generation`].
+    pub fn picks(&mut self, generation: u64) -> Result<Picks> {
+        let (scene, _) = self.read()?;
+        let Self { gpu, compiler, kept, .. } = self;
+        Picks::new(generation, scene, |scene, view| {
+            let options = Options { view: Some(view), ..Options::of(gpu) };
+            Ok(Renderer::open_again(gpu.clone(), compiler, scene, options, kept)?.0)
+        })
+    }
+
+    fn read(&mut self) -> Result<(Scene, Vec<Warning>)> {
         self.files.begin();
         let Request { scene, overrides, choice, .. } = &self.request;
         let read = read_scene_with(scene, overrides, choice, &mut self.files);
@@ -141,6 +155,12 @@ impl Studio {
         if let Some(camera) = &self.camera {
             scene.camera = camera.clone();
         }
+        Ok((scene, warnings))
+    }
+
+    fn open(&mut self) -> Result<Generation> {
+        let start = Instant::now();
+        let (scene, warnings) = self.read()?;
         let (film, camera) = (scene.film.clone(), scene.camera.clone());
         let read_seconds = start.elapsed().as_secs_f64();
         let options = Options::of(&self.gpu);

@@ -30,6 +30,11 @@ impl Rect {
     pub fn height(&self) -> u32 {
         self.y1 - self.y0
     }
+    /// The number of a pixel, row by row; none outside.
+    pub fn index(&self, x: u32, y: u32) -> Option<usize> {
+        let inside = (self.x0..self.x1).contains(&x) && (self.y0..self.y1).contains(&y);
+        inside.then(|| ((y - self.y0) * self.width() + x - self.x0) as usize)
+    }
     /// Number of pixels.
     pub fn area(&self) -> u64 {
         u64::from(self.width()) * u64::from(self.height())

@@ -17,7 +17,9 @@ fn wrong_usage_exits_with_2() {
     room.run("render scene.toml --set film").code(2).err_has("write key=value");
     room.run("render scene.toml --spp 0").code(2).err_has("0 is not in 1..=1048576");
     room.run("render scene.toml --time-limit -1").code(2);
-    room.run("render scene.toml --view depths").code(2).err_has("[possible values: normals, uv, bvh-cost,");
+    room.run("render scene.toml --view depths")
+        .code(2)
+        .err_has("[possible values: normals, uv, objects, materials,");
     room.run("render scene.toml --pixel 1,1 --crop 0,0,2,2").code(2).err_has("cannot be used with");
     room.run("render scene.toml --crop 0,0,17,2")
         .code(2)

@@ -160,6 +160,60 @@ fn texture_coordinates_are_colors() {
 }
 
 #[test]
+fn objects_and_materials_have_numbers() {
+    // Five columns: a sphere, a quad, two places of one mesh of two materials, one over the other, and nothing
+    let mut s = centered(10);
+    let [a, b, c] = [0.1, 0.2, 0.3].map(|grey| s.diffuse(grey));
+    let mixed = Surface::Mix(Mix { a, b, amount: Value::Constant(0.5) });
+    let mix = s.materials.add("mix", Material::new(mixed, None));
+    let at = |column: f32| -1.6 + 0.8 * column;
+    s.sphere(Vec3::new(2.0 * at(0.0), 0.0, -4.0), 0.7, a);
+    s.quad(Vec3::new(at(1.0) - 0.4, -9.0, -2.0), Vec3::X * 0.8, Vec3::Y * 18.0, mix);
+    let mut mesh = rectangle_mesh(Vec3::new(-0.4, -0.5, 0.0), Vec3::X * 0.8, Vec3::Y);
+    mesh.parts = vec![
+        MeshPart { name: String::new(), triangles: 0..1, material: Some(b) },
+        MeshPart { name: String::new(), triangles: 1..2, material: None },
+    ];
+    let mesh = s.meshes.add("card", mesh);
+    for y in [-0.6, 0.6] {
+        s.place(mesh, c, Affine3A::from_translation(Vec3::new(at(2.0), y, -2.0)));
+    }
+    let numbers = |view: View| -> Vec<Option<u32>> {
+        let picture = show(&s, view);
+        picture.rgb.into_iter().map(View::number).collect()
+    };
+    let (objects, materials) = (numbers(View::Objects), numbers(View::Materials));
+    let index = |handle: Handle<Material>| Some(handle.index() as u32);
+    for y in 0..10 {
+        let row =
+            |numbers: &[Option<u32>]| -> [Option<u32>; 5] { [0, 2, 5, 7, 9].map(|x| numbers[y * 10 + x]) };
+        let (objects, materials) = (row(&objects), row(&materials));
+        assert_eq!((objects[1], materials[1]), (Some(1), index(mix)), "row {y}");
+        let card = if (2..8).contains(&y) { Some(if y < 5 { 3 } else { 2 }) } else { None };
+        assert_eq!(objects[2], card, "row {y}");
+        assert_eq!((objects[3], materials[3], objects[4]), (None, None, None), "row {y}");
+    }
+    let met: Vec<_> = objects.iter().zip(&materials).filter(|(object, _)| **object == Some(0)).collect();
+    assert!(!met.is_empty() && met.iter().all(|(_, material)| **material == index(a)));
+    let on_cards = |material| {
+        let pairs = objects.iter().zip(&materials);
+        pairs.filter(|(object, found)| object.is_some_and(|o| o > 1) && **found == index(material)).count()
+    };
+    assert!(on_cards(b) > 0 && on_cards(c) > 0 && on_cards(a) == 0);
+}
+
+#[test]
+fn every_number_has_a_colour_of_its_own() {
+    use dapple::layout::NUMBER_FACTOR;
+    for number in (0..5000).chain([0x00FF_FFFD, 0x00FF_FFFE]) {
+        let bits = (number + 1_u32).wrapping_mul(NUMBER_FACTOR);
+        let rgb = [16, 8, 0].map(|shift| (bits >> shift & 255) as f32 / 255.0);
+        assert_eq!(View::number(rgb), Some(number));
+    }
+    assert_eq!(View::number([0.0; 3]), None);
+}
+
+#[test]
 fn the_cost_of_rays_is_what_they_are_tested_against() {
     // Nothing; one triangle or one sphere, which are met or not; each doubling of 1 + tests is a tenth
     expect(&show(&centered(8), View::BvhCost), 0.0, |_, _| [0.0; 3]);

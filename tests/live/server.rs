@@ -133,6 +133,23 @@ fn a_page_gets_the_pixels_of_the_render() {
     let probe = one.hear("probe");
     assert_eq!(probe["samples"], 8);
     assert_eq!(probe["rgb"][0].as_f64().unwrap() as f32, picture.rgb[6 * 16 + 8][0]);
+    // What is there has a name, once it was asked for
+    let picked = wait(&live, "picks", |state| state.picks.is_some()).picks.unwrap();
+    assert_eq!(picked.generation, 1);
+    let mut named = |x: u32, y: u32| {
+        one.say(&json!({"probe": [x, y]}));
+        let probe = one.hear("probe");
+        [probe["object"].clone(), probe["material"].clone()]
+    };
+    assert_eq!(named(8, 2), ["shape 1", "clay"]);
+    let seen: Vec<_> = (0..12).flat_map(|y| (0..16).map(move |x| (x, y))).map(|(x, y)| named(x, y)).collect();
+    for (names, alpha) in [([json!("instance 1"), json!("papered")], 1.0), ([Value::Null, Value::Null], 0.0)]
+    {
+        let of = |alpha: f32| picture.alpha.iter().zip(&seen).filter(move |(a, _)| **a == alpha);
+        assert!(of(alpha).any(|(_, seen)| *seen == names), "{names:?}");
+        let others = [json!("shape 1"), json!("clay")];
+        assert!(of(alpha).all(|(_, seen)| *seen == names || alpha > 0.0 && *seen == others), "{seen:?}");
+    }
     one.say(&json!({"probe": [16, 0]}));
     assert_eq!(one.hear("failed"), "there is no such pixel");
     one.say(&json!({"shut": "down"}));

@@ -10,6 +10,10 @@ pub enum View {
     Normals,
     /// Texture coordinates of the first surface: u is red, v is green, and blue is a checker of 8 by 8 from 0 to 1
     Uv,
+    /// A colour for each shape and each instance of a mesh
+    Objects,
+    /// A colour for each material
+    Materials,
     /// Nodes, triangles and instances that a camera ray was tested against: black is 0, each tenth of the way to light yellow
     /// doubles 1 + tests, up to 1024
     BvhCost,
@@ -31,6 +35,8 @@ impl From<View> for prepare::View {
         match view {
             View::Normals => Self::Normals,
             View::Uv => Self::Uv,
+            View::Objects => Self::Objects,
+            View::Materials => Self::Materials,
             View::BvhCost => Self::BvhCost,
             View::PathDepth => Self::PathDepth,
             View::NonFinite => Self::NonFinite,

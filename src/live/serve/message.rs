@@ -1,6 +1,6 @@
 //! What page and server say to each other, as JSON with one key: the name of the message.
 
-use crate::live::{Generation, Shot, State};
+use crate::live::{Generation, Picks, Shot, State};
 use crate::scene::{Camera, ToneCurve};
 use crate::{Error, film};
 use serde::{Deserialize, Serialize};
@@ -150,6 +150,9 @@ pub(super) struct Probe {
     normal: [f32; 3],
     depth: Option<f32>,
     samples: u32,
+    /// Names, once they are known.
+    object: Option<String>,
+    material: Option<String>,
 }
 
 impl Now {
@@ -236,9 +239,7 @@ impl Probe {
     /// None outside of what is rendered.
     pub fn of(shot: &Shot, [x, y]: [u32; 2]) -> Option<Self> {
         let picture = &shot.picture;
-        let window = picture.frame.window;
-        let inside = (window.x0..window.x1).contains(&x) && (window.y0..window.y1).contains(&y);
-        let i = inside.then(|| ((y - window.y0) * window.width() + x - window.x0) as usize)?;
+        let i = picture.frame.window.index(x, y)?;
         Some(Self {
             x,
             y,
@@ -248,7 +249,15 @@ impl Probe {
             normal: picture.normal[i],
             depth: Some(picture.depth[i]).filter(|depth| depth.is_finite()),
             samples: picture.samples[i],
+            object: None,
+            material: None,
         })
+    }
+
+    /// With what is there, by name.
+    pub fn named(self, picks: &Picks) -> Self {
+        let [object, material] = picks.at([self.x, self.y]).map(|name| name.map(str::to_owned));
+        Self { object, material, ..self }
     }
 
     pub fn depth(&self) -> Option<f32> {

@@ -51,8 +51,7 @@ async fn answer(said: Said, want: &mut Option<Want>, socket: &mut WebSocket, des
         Said::Frame(asked) if matches!(asked.scale, 1 | 2 | 4 | 8) => *want = Some(asked),
         Said::Frame(_) => return tell(socket, &Saying::Failed("the scale is 1, 2, 4 or 8")).await,
         Said::Probe(at) => {
-            let shot = desk.show.state().shot;
-            return match shot.and_then(|shot| Probe::of(&shot, at)) {
+            return match probe(desk, at) {
                 Some(probe) => tell(socket, &Saying::Probe(probe)).await,
                 None => tell(socket, &Saying::Failed("there is no such pixel")).await,
             };
@@ -71,6 +70,20 @@ async fn answer(said: Said, want: &mut Option<Want>, socket: &mut WebSocket, des
         },
     }
     Some(())
+}
+
+/// The values of a pixel. What it shows is asked for where it is not known: the state will change when it is.
+fn probe(desk: &Desk, at: [u32; 2]) -> Option<Probe> {
+    let State { shot, picks, .. } = desk.show.state();
+    let shot = shot?;
+    let probe = Probe::of(&shot, at)?;
+    match picks.filter(|picks| picks.generation == shot.generation.number) {
+        Some(picks) => Some(probe.named(&picks)),
+        None => {
+            desk.tell(Event::Pick);
+            Some(probe)
+        }
+    }
 }
 
 /// Sends the picture that is wanted, if there is a new one.

@@ -21,10 +21,11 @@ export function probe(values) {
         line.replaceChildren();
         return;
     }
-    const { x, y, rgb, alpha, albedo, normal, depth, samples } = values;
+    const { x, y, rgb, alpha, albedo, normal, depth, samples, object, material } = values;
     const parts = [
         ["x y", `${x} ${y}`], ["rgb", vector(rgb)], ["alpha", number(alpha)], ["albedo", vector(albedo)],
         ["normal", vector(normal)], ["depth", number(depth)], ["samples", String(samples)],
+        ...(object === null ? [] : [["object", object]]), ...(material === null ? [] : [["material", material]]),
     ];
     line.replaceChildren(...parts.map(([name, text]) => element("span", "", element("b", "", `${name} `), text)));
     line.title = parts.map(([name, text]) => `${name} ${text}`).join("\n");
