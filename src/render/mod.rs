@@ -25,7 +25,7 @@ pub use uploads::Uploads;
 use crate::Result;
 use crate::film::{self, Film};
 use crate::gpu::{DeviceInfo, DeviceType, Gpu};
-use crate::layout::{Backend, Frame};
+use crate::layout::{Backend, Frame, WORD_BYTES};
 use crate::prepare::{Prepared, Stage, View};
 use crate::scene::Scene;
 use std::sync::Arc;
@@ -117,9 +117,11 @@ impl Options {
     }
 }
 
-/// The back end that is fastest on a device.
+/// The back end that is fastest on a device: texels on lavapipe. The texel buffers of SwiftShader end at 1 MiB, which no scene fits in.
 pub fn backend_of(gpu: &Gpu) -> Backend {
-    if gpu.info().kind == DeviceType::Cpu { Backend::Texel } else { Backend::Storage }
+    let DeviceInfo { kind, limits, .. } = gpu.info();
+    let are_long = limits.texel_buffer_elements.saturating_mul(WORD_BYTES) >= limits.storage_buffer_bytes;
+    if *kind == DeviceType::Cpu && are_long { Backend::Texel } else { Backend::Storage }
 }
 
 /// Threads among which a driver cuts a dispatch into contiguous parts.
