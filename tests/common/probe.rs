@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use dapple::gpu::{Command, DeviceChoice, Gpu, Layout, Pipeline, Place};
 use dapple::layout::{Backend, Frame, WORKGROUP};
+use dapple::render::backend_of;
 use dapple::shader::{CacheOptions, Compiler, KernelKey, Sources};
 
 /// A word of the buffers `points` and `values`.
@@ -106,6 +107,8 @@ impl Probe {
         outputs: usize,
     ) -> dapple::Result<Vec<Word>> {
         let gpu = &self.gpu;
+        // Where texel buffers are short there is one back end
+        let backend = backend.max(backend_of(gpu));
         let (layout, pipeline) = self.kernel(glsl, backend)?;
         let block = gpu.upload("frame", bytemuck::bytes_of(frame))?;
         let points = gpu.upload("points", bytemuck::cast_slice(inputs))?;
