@@ -4,6 +4,7 @@
 mod browser;
 mod edits;
 mod leaks;
+mod page;
 mod server;
 
 use dapple::gpu::{DeviceChoice, Gpu, validation_from_environment};
