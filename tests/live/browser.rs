@@ -65,6 +65,11 @@ impl Browser {
 
     /// Calls a method, and waits for its result.
     pub fn call(&mut self, session: Option<&str>, method: &str, params: &Value) -> Value {
+        self.ask(session, method, params).unwrap_or_else(|error| panic!("{method}: {error}"))
+    }
+
+    /// The same where the browser may refuse.
+    fn ask(&mut self, session: Option<&str>, method: &str, params: &Value) -> Result<Value, Value> {
         self.calls += 1;
         let mut message = json!({"id": self.calls, "method": method, "params": params});
         if let Some(session) = session {
@@ -75,19 +80,29 @@ impl Browser {
             if let Message::Text(text) = self.socket.read().unwrap() {
                 let answer: Value = serde_json::from_str(&text).unwrap();
                 if answer["id"] == self.calls {
-                    assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
-                    return answer["result"].clone();
+                    let (result, error) = (&answer["result"], &answer["error"]);
+                    return if error.is_null() { Ok(result.clone()) } else { Err(error.clone()) };
                 }
             }
         }
     }
 
-    /// Opens a tab.
+    /// Opens a tab, and waits until its page is there: what is asked before is lost with the empty one.
     pub fn open(&mut self, url: &str) -> Tab {
         let target = self.call(None, "Target.createTarget", &json!({"url": url}));
         let attach = json!({"targetId": target["targetId"], "flatten": true});
         let session = self.call(None, "Target.attachToTarget", &attach);
-        Tab(session["sessionId"].as_str().unwrap().to_owned())
+        let tab = Tab(session["sessionId"].as_str().unwrap().to_owned());
+        let there = json!({"expression": "document.readyState === 'complete' && Boolean(window.dapple)"});
+        let start = Instant::now();
+        while !self
+            .ask(Some(&tab.0), "Runtime.evaluate", &there)
+            .is_ok_and(|answer| answer["result"]["value"] == true)
+        {
+            assert!(start.elapsed() < LIMIT, "the page does not open");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        tab
     }
 
     /// The value of an expression in a tab; of what it promises, once it is there.

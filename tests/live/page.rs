@@ -208,3 +208,121 @@ fn a_wheel_with_ctrl_goes_nearer_and_without_it_zooms() {
     stage.until("!dapple.state.camera.moved");
     stage.stands_at([0.0, 1.0, 5.0]);
 }
+
+/// The distance that is sharp.
+fn sharp_at(shot: &Shot) -> f32 {
+    match shot.generation.camera.thin_lens().unwrap().focus {
+        Focus::Distance(distance) => distance,
+        Focus::Plane { .. } => panic!("a plane"),
+    }
+}
+
+#[test]
+fn a_click_focuses_on_what_is_there() {
+    let room = level();
+    room.edit("scene.toml", "fov = 35", "fov = 35\nlens_radius = 0.02\nfocus_distance = 2");
+    let Some(mut stage) = Stage::of(room) else { return };
+    assert_eq!(sharp_at(&stage.shot()), 2.0);
+    let armed = "document.getElementById('focus').getAttribute('aria-pressed')";
+    // The sphere is 4 away where it is nearest
+    stage.click("focus");
+    assert_eq!(stage.text(armed), "true");
+    let sphere = stage.place(8, 6);
+    stage.click_at(sphere, 0);
+    stage.until("dapple.state.generation === 2 && dapple.state.camera.moved");
+    let sharp = sharp_at(&stage.shot());
+    assert!((sharp - 4.0).abs() < 0.05, "{sharp}");
+    // The next click turns nothing and focuses nothing
+    assert_eq!(stage.text(armed), "false");
+    stage.click_at(sphere, 0);
+    // All of the triangle is 6 away along the view, also where the ray to it is longer
+    let triangle = stage.place(13, 8);
+    stage.click_at(triangle, ALT);
+    stage.until("dapple.state.generation === 3");
+    let shot = stage.shot();
+    let (sharp, far) = (sharp_at(&shot), shot.picture.depth[8 * 16 + 13]);
+    assert!((sharp - 6.0).abs() < 0.01 && far > 6.1, "{sharp}, {far}");
+    // Where nothing is, the page says so
+    let sky = stage.place(0, 0);
+    stage.click_at(sky, ALT);
+    stage.until("document.getElementById('notice').textContent.includes('nothing to focus on')");
+    assert_eq!(stage.number("dapple.state.generation"), 3.0);
+    stage.key("r", 0);
+    stage.until("dapple.state.generation === 4 && !dapple.state.camera.moved");
+    assert_eq!(sharp_at(&stage.shot()), 2.0);
+}
+
+#[test]
+fn a_camera_without_a_lens_cannot_focus() {
+    let Some(mut stage) = Stage::of(level()) else { return };
+    assert_eq!(stage.value("document.getElementById('focus').disabled"), true);
+    let sphere = stage.place(8, 6);
+    stage.click_at(sphere, ALT);
+    stage.click("focus");
+    // It turns instead
+    let [x, y] = sphere;
+    stage.drag([x, y], [-50.0, 0.0], "left");
+    stage.stands_at([5.0 * 0.3_f64.sin(), 1.0, 5.0 * 0.3_f64.cos()]);
+}
+
+/// Colours of the pixels on the screen, at their middles.
+fn screen(stage: &mut Stage) -> Vec<[u8; 3]> {
+    let places = "Array.from({length: 192}, (_, i) => dapple.place(i % 16, Math.floor(i / 16)))";
+    let places: Vec<[f64; 2]> = serde_json::from_value(stage.value(places)).unwrap();
+    let picture =
+        stage.browser.call(Some(&stage.tab.0), "Page.captureScreenshot", &json!({"format": "png"}));
+    let bytes = base64::engine::general_purpose::STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
+    let screen = image::load_from_memory(&bytes).unwrap().to_rgb8();
+    places.into_iter().map(|[x, y]| screen.get_pixel(x as u32, y as u32).0).collect()
+}
+
+/// Colours of the pixels in a PNG of a shot, as it is written with some exposure and curve.
+fn written(shot: &Shot, stops: f32, curve: ToneCurve) -> Vec<[u8; 3]> {
+    let mut film = shot.generation.film.clone();
+    (film.exposure.stops, film.tone_curve) = (stops, curve);
+    let meta = Meta::of(&shot.picture.frame, shot.spp);
+    let bytes = encode(Format::Png, &shot.picture, &film, &meta).unwrap();
+    image::load_from_memory(&bytes).unwrap().to_rgb8().pixels().map(|pixel| pixel.0).collect()
+}
+
+fn near(one: [u8; 3], two: [u8; 3]) -> bool {
+    one.into_iter().zip(two).all(|(one, two)| one.abs_diff(two) <= 1)
+}
+
+#[test]
+fn left_of_the_divider_is_the_generation_before() {
+    let Some(mut stage) = Stage::of(level()) else { return };
+    let before = written(&stage.shot(), 0.0, ToneCurve::Srgb);
+    stage.room.edit("scene.toml", "color = 0.2", "color = [0.7, 0.5, 0.3]");
+    stage.room.edit("scene.toml", "size = [16, 12]", "size = [16, 12]\nfilm.exposure = -1");
+    stage.until("dapple.state.gain === 0.5 && Math.abs(dapple.pixel(0, 0)[0] - 0.7) < 1e-3");
+    let now = written(&stage.shot(), -1.0, ToneCurve::Srgb);
+    assert!(before.iter().zip(&now).all(|(&before, &now)| !near(before, now)));
+    assert!(screen(&mut stage).iter().zip(&now).all(|(&seen, &now)| near(seen, now)));
+    let check = |stage: &mut Stage, columns: usize| {
+        let seen = screen(stage);
+        // The names of the sides are at the top
+        for i in 32..192 {
+            let right = if i % 16 < columns { before[i] } else { now[i] };
+            assert!(near(seen[i], right), "{:?} for {right:?} at {i}, {columns} columns", seen[i]);
+        }
+    };
+    stage.click("wipe");
+    stage.until("dapple.before?.spp === 8 && !document.getElementById('divider').hidden");
+    check(&mut stage, 8);
+    // Both sides can be asked for their numbers
+    let linear = stage.number("dapple.pixel(0, 0, 'before')[0]");
+    assert!((linear - 0.2).abs() < 1e-3, "{linear}");
+    // It is dragged, and moved with keys
+    let divider = stage.middle("divider");
+    let quarter = [0, 4].map(|x| stage.place(x, 0)[0]);
+    stage.drag(divider, [quarter[0] - quarter[1], 0.0], "left");
+    stage.until("Math.abs(document.getElementById('divider').getAttribute('aria-valuenow') - 50) > 10");
+    check(&mut stage, 4);
+    stage.key("Home", 0);
+    stage.until("document.getElementById('divider').getAttribute('aria-valuenow') === '0'");
+    check(&mut stage, 0);
+    stage.key("w", 0);
+    stage.until("document.getElementById('divider').hidden");
+    assert!(screen(&mut stage).iter().zip(&now).all(|(&seen, &now)| near(seen, now)));
+}
