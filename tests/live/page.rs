@@ -1,138 +1,11 @@
 //! The page as somebody uses it: with a mouse, with keys, and with its own buttons.
 
-use super::browser::{Browser, Tab, chromium, serve};
-use super::{Room, wait};
-use base64::Engine as _;
+use super::Room;
+use super::stage::{ALT, CTRL, SHIFT, Stage};
 use dapple::film::{Format, Meta, encode};
-use dapple::live::{Live, Server, Shot};
+use dapple::live::Shot;
 use dapple::scene::{Focus, ToneCurve};
-use serde_json::{Value, json};
-use std::sync::Arc;
-
-/// Bits of the keys that are held, as the protocol has them.
-const ALT: u32 = 1;
-const CTRL: u32 = 2;
-const SHIFT: u32 = 8;
-
-/// A page that shows the scene of a room. It ends from the top.
-struct Stage {
-    browser: Browser,
-    tab: Tab,
-    server: Server,
-    live: Live,
-    room: Room,
-}
-
-impl Stage {
-    /// None without Chromium.
-    fn of(room: Room) -> Option<Self> {
-        let mut browser = Browser::start(chromium()?);
-        let live = room.live(8);
-        let server = serve(&room, &live);
-        let tab = browser.open(server.url());
-        let mut stage = Self { browser, tab, server, live, room };
-        stage.until("true");
-        Some(stage)
-    }
-
-    /// Waits for a condition, and until all samples are drawn.
-    fn until(&mut self, condition: &str) {
-        let all = "dapple.idle && dapple.shown.generation === dapple.state.generation && dapple.shown.spp === 8";
-        self.browser.wait(&self.tab, &format!("{all} && ({condition})"));
-    }
-
-    fn value(&mut self, expression: &str) -> Value {
-        self.browser.value(&self.tab, expression)
-    }
-
-    fn number(&mut self, expression: &str) -> f64 {
-        self.value(expression).as_f64().unwrap()
-    }
-
-    fn text(&mut self, expression: &str) -> String {
-        self.value(expression).as_str().unwrap().to_owned()
-    }
-
-    fn point(&mut self, expression: &str) -> [f64; 2] {
-        serde_json::from_value(self.value(expression)).unwrap()
-    }
-
-    /// Where the middle of a pixel is.
-    fn place(&mut self, x: usize, y: usize) -> [f64; 2] {
-        self.point(&format!("dapple.place({x}, {y})"))
-    }
-
-    /// What the server shows.
-    fn shot(&self) -> Arc<Shot> {
-        wait(&self.live, "8 samples", |state| state.shot.as_ref().is_some_and(|shot| shot.spp == 8)).shot.unwrap()
-    }
-
-    fn mouse(&mut self, kind: &str, [x, y]: [f64; 2], more: &Value) {
-        let mut event = json!({"type": kind, "x": x, "y": y});
-        event.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
-        self.browser.call(Some(&self.tab.0), "Input.dispatchMouseEvent", &event);
-    }
-
-    /// Drags from the middle of the canvas, or from elsewhere.
-    fn drag(&mut self, from: [f64; 2], by: [f64; 2], button: &str) {
-        let held = json!({"button": button, "buttons": if button == "right" { 2 } else { 1 }, "clickCount": 1});
-        self.mouse("mouseMoved", from, &json!({}));
-        self.mouse("mousePressed", from, &held);
-        let at = |part: f64| [from[0] + part * by[0], from[1] + part * by[1]];
-        for part in [0.5, 1.0] {
-            self.mouse("mouseMoved", at(part), &held);
-        }
-        self.mouse("mouseReleased", at(1.0), &json!({"button": button, "clickCount": 1}));
-    }
-
-    fn click_at(&mut self, at: [f64; 2], modifiers: u32) {
-        self.mouse("mouseMoved", at, &json!({}));
-        for kind in ["mousePressed", "mouseReleased"] {
-            self.mouse(kind, at, &json!({"button": "left", "clickCount": 1, "modifiers": modifiers}));
-        }
-    }
-
-    /// Clicks on the middle of an element.
-    fn click(&mut self, id: &str) {
-        let middle = self.middle(id);
-        self.click_at(middle, 0);
-    }
-
-    fn middle(&mut self, id: &str) -> [f64; 2] {
-        self.point(&format!(
-            "(box => [box.left + box.width / 2, box.top + box.height / 2])(document.getElementById('{id}').getBoundingClientRect())"
-        ))
-    }
-
-    /// Presses a key and lets it go.
-    fn key(&mut self, key: &str, modifiers: u32) {
-        for kind in ["rawKeyDown", "keyUp"] {
-            let code = if key.len() == 1 { i32::from(key.to_uppercase().as_bytes()[0]) } else { key_code(key) };
-            let event = json!({"type": kind, "key": key, "code": key, "modifiers": modifiers, "windowsVirtualKeyCode": code});
-            self.browser.call(Some(&self.tab.0), "Input.dispatchKeyEvent", &event);
-        }
-    }
-
-    /// Waits until the camera is somewhere.
-    fn stands_at(&mut self, place: [f64; 3]) {
-        self.until(&format!("Math.hypot(...dapple.state.camera.position.map((v, i) => v - {place:?}[i])) < 1e-4"));
-    }
-
-    /// Where the camera is, as in a scene.
-    fn position(&mut self) -> String {
-        self.value("dapple.state.camera.position").to_string()
-    }
-}
-
-fn key_code(key: &str) -> i32 {
-    match key {
-        "ArrowLeft" => 37,
-        "ArrowRight" => 39,
-        "ArrowDown" => 40,
-        "Home" => 36,
-        _ => panic!("what key is {key}?"),
-    }
-}
+use serde_json::json;
 
 /// The camera looks at the middle of the sphere, 5 away.
 fn level() -> Room {
@@ -186,7 +59,8 @@ fn a_wheel_with_ctrl_goes_nearer_and_without_it_zooms() {
     let zoomed = "document.getElementById('zoom-one').textContent";
     let whole = stage.text(zoomed);
     // exp(0.002) to a notch
-    let wheel = |notches: i32, modifiers: u32| json!({"deltaX": 0, "deltaY": notches, "modifiers": modifiers});
+    let wheel =
+        |notches: i32, modifiers: u32| json!({"deltaX": 0, "deltaY": notches, "modifiers": modifiers});
     stage.mouse("mouseWheel", middle, &wheel(-100, CTRL));
     let factor = (-0.2_f64).exp();
     stage.stands_at([0.0, 1.0, 5.0 * factor]);
@@ -265,17 +139,6 @@ fn a_camera_without_a_lens_cannot_focus() {
     stage.stands_at([5.0 * 0.3_f64.sin(), 1.0, 5.0 * 0.3_f64.cos()]);
 }
 
-/// Colours of the pixels on the screen, at their middles.
-fn screen(stage: &mut Stage) -> Vec<[u8; 3]> {
-    let places = "Array.from({length: 192}, (_, i) => dapple.place(i % 16, Math.floor(i / 16)))";
-    let places: Vec<[f64; 2]> = serde_json::from_value(stage.value(places)).unwrap();
-    let picture =
-        stage.browser.call(Some(&stage.tab.0), "Page.captureScreenshot", &json!({"format": "png"}));
-    let bytes = base64::engine::general_purpose::STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
-    let screen = image::load_from_memory(&bytes).unwrap().to_rgb8();
-    places.into_iter().map(|[x, y]| screen.get_pixel(x as u32, y as u32).0).collect()
-}
-
 /// Colours of the pixels in a PNG of a shot, as it is written with some exposure and curve.
 fn written(shot: &Shot, stops: f32, curve: ToneCurve) -> Vec<[u8; 3]> {
     let mut film = shot.generation.film.clone();
@@ -298,9 +161,9 @@ fn left_of_the_divider_is_the_generation_before() {
     stage.until("dapple.state.gain === 0.5 && Math.abs(dapple.pixel(0, 0)[0] - 0.7) < 1e-3");
     let now = written(&stage.shot(), -1.0, ToneCurve::Srgb);
     assert!(before.iter().zip(&now).all(|(&before, &now)| !near(before, now)));
-    assert!(screen(&mut stage).iter().zip(&now).all(|(&seen, &now)| near(seen, now)));
+    assert!(stage.screen().iter().zip(&now).all(|(&seen, &now)| near(seen, now)));
     let check = |stage: &mut Stage, columns: usize| {
-        let seen = screen(stage);
+        let seen = stage.screen();
         // The names of the sides are at the top
         for i in 32..192 {
             let right = if i % 16 < columns { before[i] } else { now[i] };
@@ -317,12 +180,155 @@ fn left_of_the_divider_is_the_generation_before() {
     let divider = stage.middle("divider");
     let quarter = [0, 4].map(|x| stage.place(x, 0)[0]);
     stage.drag(divider, [quarter[0] - quarter[1], 0.0], "left");
-    stage.until("Math.abs(document.getElementById('divider').getAttribute('aria-valuenow') - 50) > 10");
+    let right = 100.0 * (divider[0] + quarter[0] - quarter[1]) / stage.number("innerWidth");
+    stage.until(&format!(
+        "Math.abs(document.getElementById('divider').getAttribute('aria-valuenow') - {right}) <= 1"
+    ));
     check(&mut stage, 4);
     stage.key("Home", 0);
     stage.until("document.getElementById('divider').getAttribute('aria-valuenow') === '0'");
     check(&mut stage, 0);
     stage.key("w", 0);
     stage.until("document.getElementById('divider').hidden");
-    assert!(screen(&mut stage).iter().zip(&now).all(|(&seen, &now)| near(seen, now)));
+    assert!(stage.screen().iter().zip(&now).all(|(&seen, &now)| near(seen, now)));
+}
+
+#[test]
+fn planes_are_those_of_the_render() {
+    let room = level();
+    // So that some pixels are covered in part
+    room.edit("scene.toml", "size = [16, 12]", "size = [16, 12]\nfilm.transparent = true");
+    let Some(mut stage) = Stage::of(room) else { return };
+    let shot = stage.shot();
+    let picture = &shot.picture;
+    let thrice = |list: &[f32]| list.iter().map(|&value| [value; 3]).collect::<Vec<_>>();
+    let planes = [
+        ("albedo", picture.albedo.clone()),
+        ("normal", picture.normal.clone()),
+        ("depth", thrice(&picture.depth)),
+        ("alpha", thrice(&picture.alpha)),
+        ("variance", picture.variance.clone()),
+        ("color", picture.rgb.clone()),
+    ];
+    let all = "Array.from({length: 192}, (_, i) => dapple.pixel(i % 16, Math.floor(i / 16)).map(String))";
+    for (name, right) in &planes {
+        assert!(right.iter().any(|value| value != &right[0]), "{name} is the same everywhere");
+        stage.key("a", 0);
+        stage.until(&format!("dapple.shown.aov === '{name}'"));
+        assert_eq!(stage.text("document.getElementById('aov').value"), *name);
+        let seen: Vec<[String; 3]> = serde_json::from_value(stage.value(all)).unwrap();
+        for (i, (seen, right)) in seen.iter().zip(right).enumerate() {
+            for (seen, &right) in seen.iter().zip(right) {
+                let seen: f32 = seen.parse().unwrap();
+                // All but a depth are sent as halves
+                let most = if *name == "depth" { 0.0 } else { 5e-4 * right.abs() + 1e-7 };
+                assert!(seen == right || (seen - right).abs() <= most, "{name} {i}: {seen} for {right}");
+            }
+        }
+    }
+    stage.key("a", SHIFT);
+    stage.until("dapple.shown.aov === 'variance'");
+    // The list itself
+    stage.value("document.getElementById('aov').focus()");
+    stage.key("ArrowUp", 0);
+    stage.until("dapple.shown.aov === 'alpha'");
+}
+
+#[test]
+fn exposure_and_curves_are_those_of_a_png() {
+    let room = level();
+    room.edit("scene.toml", "color = 0.6", "color = [0.9, 0.3, 0.05]");
+    room.edit("scene.toml", "color = 0.2", "color = [0.05, 0.6, 2]");
+    let Some(mut stage) = Stage::of(room) else { return };
+    let shot = stage.shot();
+    let check = |stage: &mut Stage, shot: &Shot, stops: f32, curve: ToneCurve| {
+        let right = written(shot, stops, curve);
+        for (i, (seen, right)) in stage.screen().into_iter().zip(right).enumerate() {
+            assert!(near(seen, right), "{seen:?} for {right:?} at {i}, {stops} stops, {curve:?}");
+        }
+    };
+    check(&mut stage, &shot, 0.0, ToneCurve::Srgb);
+    // From the list, with keys of half a stop
+    stage.value("document.getElementById('curve').focus()");
+    for (name, curve) in [
+        ("srgb", ToneCurve::Srgb),
+        ("linear", ToneCurve::Linear),
+        ("aces", ToneCurve::Aces),
+        ("agx", ToneCurve::Agx),
+    ] {
+        stage.key("ArrowDown", 0);
+        stage.until(&format!("document.getElementById('curve').value === '{name}'"));
+        check(&mut stage, &shot, 0.0, curve);
+    }
+    stage.click("stops-reset");
+    for (key, modifiers, stops) in
+        [("e", 0, 0.5), ("e", 0, 1.0), ("e", SHIFT, 0.5), ("0", 0, 0.0), ("e", SHIFT, -0.5)]
+    {
+        stage.key(key, modifiers);
+        stage.until(&format!("Number(document.getElementById('stops').value) === {stops}"));
+        check(&mut stage, &shot, stops, ToneCurve::Agx);
+    }
+    // What the scene says, and stops on top of it
+    stage.room.edit(
+        "scene.toml",
+        "size = [16, 12]",
+        "size = [16, 12]\nfilm.exposure = 2\nfilm.tone_curve = \"aces\"",
+    );
+    stage.until("dapple.state.gain === 4");
+    check(&mut stage, &shot, 1.5, ToneCurve::Agx);
+    stage.value("document.getElementById('curve').focus()");
+    stage.key("Home", 0);
+    stage.until("document.getElementById('curve').value === 'scene'");
+    check(&mut stage, &shot, 1.5, ToneCurve::Aces);
+}
+
+/// The numbers of the panel of the pixel, by their names.
+fn panel(stage: &mut Stage) -> Vec<(String, Vec<String>)> {
+    let texts = "Array.from(document.querySelectorAll('#probe span'), (span) => [span.firstChild.innerText, span.lastChild.textContent])";
+    let texts: Vec<[String; 2]> = serde_json::from_value(stage.value(texts)).unwrap();
+    let words = |text: &str| text.split_whitespace().map(str::to_owned).collect();
+    texts.iter().map(|[name, text]| (name.trim().to_owned(), words(text))).collect()
+}
+
+#[test]
+fn the_panel_has_the_values_under_the_pointer() {
+    let Some(mut stage) = Stage::of(level()) else { return };
+    let probe = |text: &str| format!("document.getElementById('probe').innerText.includes('{text}')");
+    let check = |stage: &mut Stage, x: usize, y: usize| {
+        let (shot, panel) = (stage.shot(), panel(stage));
+        let (picture, i) = (&shot.picture, y * 16 + x);
+        let right: [(&str, &[f32]); 7] = [
+            ("x y", &[x as f32, y as f32]),
+            ("rgb", &picture.rgb[i]),
+            ("alpha", &[picture.alpha[i]]),
+            ("albedo", &picture.albedo[i]),
+            ("normal", &picture.normal[i]),
+            ("depth", &[picture.depth[i]]),
+            ("samples", &[8.0]),
+        ];
+        assert_eq!(panel.len(), right.len());
+        for ((name, texts), (right_name, values)) in panel.iter().zip(right) {
+            assert_eq!((name.as_str(), texts.len()), (right_name, values.len()));
+            for (text, &value) in texts.iter().zip(values) {
+                let seen: f32 = if text == "∞" { f32::INFINITY } else { text.parse().unwrap() };
+                assert!(
+                    seen == value || (seen - value).abs() < 6e-5_f32.max(5e-3 * value.abs()),
+                    "{name}: {text} for {value}"
+                );
+            }
+        }
+    };
+    for (x, y) in [(8, 6), (13, 8), (15, 0)] {
+        let at = stage.place(x, y);
+        stage.mouse("mouseMoved", at, &json!({}));
+        stage.until(&probe(&format!("x y {x} {y}")));
+        check(&mut stage, x, y);
+    }
+    // The pointer rests, and the picture is another one
+    stage.room.edit("scene.toml", "color = 0.2", "color = 0.5");
+    stage.until(&probe("rgb 0.5000 0.5000 0.5000"));
+    check(&mut stage, 15, 0);
+    let bar = stage.middle("help");
+    stage.mouse("mouseMoved", bar, &json!({}));
+    stage.until("document.getElementById('probe').innerText === ''");
 }
