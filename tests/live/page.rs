@@ -1,11 +1,12 @@
 //! The page as somebody uses it: with a mouse, with keys, and with its own buttons.
 
-use super::Room;
 use super::stage::{ALT, CTRL, SHIFT, Stage};
+use super::{Room, cache, gpu};
 use dapple::film::{Format, Meta, encode};
-use dapple::live::Shot;
+use dapple::live::{Live, Request, Shot};
 use dapple::scene::{Focus, ToneCurve};
 use serde_json::json;
+use std::sync::{Arc, Mutex};
 
 /// The camera looks at the middle of the sphere, 5 away.
 fn level() -> Room {
@@ -20,8 +21,12 @@ fn a_drag_turns_the_camera() {
     let at_first = stage.shot();
     assert_eq!(stage.value("dapple.state.camera.moved"), false);
     assert_eq!(stage.value("document.getElementById('look-reset').disabled"), true);
-    // 0.006 radians to a pixel; the scene follows the pointer
+    // Nothing to focus
+    assert_eq!(stage.value("document.getElementById('focus').disabled"), true);
     let middle = stage.middle("picture");
+    stage.click("focus");
+    stage.click_at(middle, ALT);
+    // 0.006 radians to a pixel; the scene follows the pointer
     stage.drag(middle, [100.0, 50.0], "left");
     let (right, above) = (-0.6_f64, 0.3_f64);
     let flat = 5.0 * above.cos();
@@ -127,16 +132,28 @@ fn a_click_focuses_on_what_is_there() {
 }
 
 #[test]
-fn a_camera_without_a_lens_cannot_focus() {
-    let Some(mut stage) = Stage::of(level()) else { return };
-    assert_eq!(stage.value("document.getElementById('focus').disabled"), true);
-    let sphere = stage.place(8, 6);
-    stage.click_at(sphere, ALT);
-    stage.click("focus");
-    // It turns instead
-    let [x, y] = sphere;
-    stage.drag([x, y], [-50.0, 0.0], "left");
-    stage.stands_at([5.0 * 0.3_f64.sin(), 1.0, 5.0 * 0.3_f64.cos()]);
+fn no_step_is_lost_when_the_server_is_slow() {
+    let room = level();
+    let gate = Arc::new(Mutex::new(()));
+    let held = gate.clone();
+    let through = Box::new(move |_: &mut _, _: &[_]| {
+        drop(held.lock());
+        Ok(())
+    });
+    let live = Live::start(gpu(), Request { adjust: through, ..room.request(cache()) }, 8).unwrap();
+    let Some(mut stage) = Stage::with(room, live) else { return };
+    // Counts how often the page gave up to wait for a step
+    stage.value(
+        "window.late = 0; window.timer = setTimeout;
+        window.setTimeout = (run, after) => timer(() => { run(); late += after === 1000; }, after); 0",
+    );
+    let closed = gate.lock().unwrap();
+    stage.key("ArrowRight", 0);
+    stage.wait("late === 1");
+    assert_eq!(stage.value("dapple.idle"), false);
+    stage.key("ArrowRight", 0);
+    drop(closed);
+    stage.stands_at([5.0 * 0.2_f64.sin(), 1.0, 5.0 * 0.2_f64.cos()]);
 }
 
 /// Colours of the pixels in a PNG of a shot, as it is written with some exposure and curve.

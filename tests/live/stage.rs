@@ -24,8 +24,12 @@ pub struct Stage {
 impl Stage {
     /// None without Chromium.
     pub fn of(room: Room) -> Option<Self> {
-        let mut browser = Browser::start(chromium()?);
         let live = room.live(8);
+        Self::with(room, live)
+    }
+
+    pub fn with(room: Room, live: Live) -> Option<Self> {
+        let mut browser = Browser::start(chromium()?);
         let server = serve(&room, &live);
         let tab = browser.open(server.url());
         let mut stage = Self { browser, tab, _server: server, live, room };
@@ -37,7 +41,11 @@ impl Stage {
     pub fn until(&mut self, condition: &str) {
         let all =
             "dapple.idle && dapple.shown.generation === dapple.state.generation && dapple.shown.spp === 8";
-        self.browser.wait(&self.tab, &format!("{all} && ({condition})"));
+        self.wait(&format!("{all} && ({condition})"));
+    }
+
+    pub fn wait(&mut self, condition: &str) {
+        self.browser.wait(&self.tab, condition);
     }
 
     pub fn value(&mut self, expression: &str) -> Value {
