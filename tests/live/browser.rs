@@ -13,7 +13,7 @@ use tungstenite::stream::MaybeTlsStream;
 use tungstenite::{Message, WebSocket};
 
 /// A browser that runs.
-struct Browser {
+pub struct Browser {
     process: Child,
     socket: WebSocket<MaybeTlsStream<TcpStream>>,
     calls: u64,
@@ -28,7 +28,7 @@ impl Drop for Browser {
 }
 
 /// Where Chromium is; none where it is not installed, which is a failure in CI.
-fn chromium() -> Option<&'static str> {
+pub fn chromium() -> Option<&'static str> {
     let found = ["chromium", "chromium-browser", "google-chrome"].into_iter().find(|name| {
         Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
     });
@@ -40,7 +40,7 @@ fn chromium() -> Option<&'static str> {
 }
 
 impl Browser {
-    fn start(program: &str) -> Self {
+    pub fn start(program: &str) -> Self {
         let profile = tempfile::tempdir().unwrap();
         let process = Command::new(program)
             .args([
@@ -64,7 +64,12 @@ impl Browser {
     }
 
     /// Calls a method, and waits for its result.
-    fn call(&mut self, session: Option<&str>, method: &str, params: &Value) -> Value {
+    pub fn call(&mut self, session: Option<&str>, method: &str, params: &Value) -> Value {
+        self.ask(session, method, params).unwrap_or_else(|error| panic!("{method}: {error}"))
+    }
+
+    /// The same where the browser may refuse.
+    fn ask(&mut self, session: Option<&str>, method: &str, params: &Value) -> Result<Value, Value> {
         self.calls += 1;
         let mut message = json!({"id": self.calls, "method": method, "params": params});
         if let Some(session) = session {
@@ -75,23 +80,33 @@ impl Browser {
             if let Message::Text(text) = self.socket.read().unwrap() {
                 let answer: Value = serde_json::from_str(&text).unwrap();
                 if answer["id"] == self.calls {
-                    assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
-                    return answer["result"].clone();
+                    let (result, error) = (&answer["result"], &answer["error"]);
+                    return if error.is_null() { Ok(result.clone()) } else { Err(error.clone()) };
                 }
             }
         }
     }
 
-    /// Opens a tab.
-    fn open(&mut self, url: &str) -> Tab {
+    /// Opens a tab, and waits until its page is there: what is asked before is lost with the empty one.
+    pub fn open(&mut self, url: &str) -> Tab {
         let target = self.call(None, "Target.createTarget", &json!({"url": url}));
         let attach = json!({"targetId": target["targetId"], "flatten": true});
         let session = self.call(None, "Target.attachToTarget", &attach);
-        Tab(session["sessionId"].as_str().unwrap().to_owned())
+        let tab = Tab(session["sessionId"].as_str().unwrap().to_owned());
+        let there = json!({"expression": "document.readyState === 'complete' && Boolean(window.dapple)"});
+        let start = Instant::now();
+        while !self
+            .ask(Some(&tab.0), "Runtime.evaluate", &there)
+            .is_ok_and(|answer| answer["result"]["value"] == true)
+        {
+            assert!(start.elapsed() < LIMIT, "the page does not open");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        tab
     }
 
     /// The value of an expression in a tab; of what it promises, once it is there.
-    fn value(&mut self, tab: &Tab, expression: &str) -> Value {
+    pub fn value(&mut self, tab: &Tab, expression: &str) -> Value {
         let params = json!({"expression": expression, "awaitPromise": true, "returnByValue": true});
         let result = self.call(Some(&tab.0), "Runtime.evaluate", &params);
         assert!(result["exceptionDetails"].is_null(), "{expression}: {}", result["exceptionDetails"]);
@@ -99,7 +114,7 @@ impl Browser {
     }
 
     /// Waits until an expression is true.
-    fn wait(&mut self, tab: &Tab, expression: &str) {
+    pub fn wait(&mut self, tab: &Tab, expression: &str) {
         let limit = LIMIT.as_millis();
         let true_in_time = self.value(
             tab,
@@ -120,7 +135,7 @@ impl Browser {
 }
 
 /// A tab of a browser, by the name of its session.
-struct Tab(String);
+pub struct Tab(pub String);
 
 /// The address that a browser writes into its profile once it listens.
 fn address(file: &Path) -> String {
@@ -135,7 +150,7 @@ fn address(file: &Path) -> String {
     }
 }
 
-fn serve(room: &Room, live: &Live) -> Server {
+pub fn serve(room: &Room, live: &Live) -> Server {
     let address = Address { host: Ipv4Addr::LOCALHOST.into(), port: 0 };
     let about = About { device: gpu().info().name.clone(), spp: 8, roots: vec![room.path("")] };
     Server::start(live, &address, about).unwrap()

@@ -4,7 +4,9 @@
 mod browser;
 mod edits;
 mod leaks;
+mod page;
 mod server;
+mod stage;
 
 use dapple::gpu::{DeviceChoice, Gpu, validation_from_environment};
 use dapple::live::{Live, Request, State, Studio};

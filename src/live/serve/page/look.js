@@ -43,11 +43,14 @@ export function slide({ position, target, up }, right, above) {
     return { position: add(position, move), target: add(target, move), up };
 }
 
+/** Whether two places are one for the server, which has numbers of 32 bits. */
+const same = (a, b) => a.every((value, i) => Math.fround(value) === Math.fround(b[i]));
+
 /** Says where to look from and what to focus on, no faster than pictures come of it. */
 export class Look {
     #send;
     #state = null;
-    /** Where it shall be looked from, as long as the server may not know it. */
+    /** Where it shall be looked from, until a picture from there has come. */
     #wanted = null;
     #unsent = false;
     #sent = null;
@@ -58,7 +61,7 @@ export class Look {
 
     /** Whether a step has not come back as a picture yet. */
     get waits() {
-        return this.#unsent || this.#sent !== null;
+        return this.#wanted !== null || this.#sent !== null;
     }
 
     /** Steps on: `step` makes another stand of one. */
@@ -95,6 +98,11 @@ export class Look {
         if (this.#sent && (state.generation > generation || (state.error && state.attempts > attempts))) {
             this.#came();
         }
+        const { camera } = state;
+        const there = camera && this.#wanted && ["position", "target"].every((name) => same(camera[name], this.#wanted[name]));
+        if (there && !this.#unsent) {
+            this.#wanted = null;
+        }
     }
 
     #came() {
@@ -102,8 +110,6 @@ export class Look {
         this.#sent = null;
         if (this.#unsent) {
             this.#flush();
-        } else {
-            this.#wanted = null;
         }
     }
 
