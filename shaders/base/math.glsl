@@ -44,6 +44,20 @@ float asin_exact(float x)
 
 float acos_exact(float x) { return 0.5 * PI - asin_exact(x); }
 
+// The point of the unit circle at an angle, cosine and sine, good to 1e-7 (Cephes, sinf and cosf). Vulkan lets GLSL's own be off by
+// 5e-4, and on SwiftShader they are by 5e-5: directions of other lengths than 1, and points of lamps that are inside of them.
+vec2 circle_point(float angle)
+{
+    float quarters = floor(angle * (2.0 * INV_PI) + 0.5);
+    float x = ((angle - quarters * 1.5703125) - quarters * 4.837512969970703e-4) - quarters * 7.549789954891882e-8;
+    float z = x * x;
+    float s = x + x * z * ((-1.9515295891e-4 * z + 8.3321608736e-3) * z - 1.6666654611e-1);
+    float c = 1.0 - 0.5 * z + z * z * ((2.443315711809948e-5 * z - 1.388731625493765e-3) * z + 4.166664568298827e-2);
+    int turns = int(quarters);
+    vec2 p = (turns & 1) != 0 ? vec2(-s, c) : vec2(c, s);
+    return (turns & 2) != 0 ? -p : p;
+}
+
 // An orthonormal basis around a unit vector (Duff et al. 2017).
 struct Basis { vec3 x; vec3 y; vec3 z; };
 

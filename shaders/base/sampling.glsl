@@ -9,7 +9,7 @@ vec2 disk_sample(vec2 u01)
     bool wide = abs(p.x) > abs(p.y);
     float r = wide ? p.x : p.y;
     float phi = wide ? 0.25 * PI * (p.y / p.x) : 0.5 * PI - 0.25 * PI * (p.x / p.y);
-    return r * vec2(cos(phi), sin(phi));
+    return r * circle_point(phi);
 }
 
 // A regular polygon with its corners on the unit circle, the first at angle `rotation`.
@@ -20,8 +20,7 @@ vec2 polygon_sample(vec2 u01, uint corners, float rotation)
     float side = min(floor(u01.x * n), n - 1.0);
     float s = sqrt(u01.x * n - side);
     float a = 2.0 * PI * side / n + rotation;
-    float b = a + 2.0 * PI / n;
-    return s * mix(vec2(cos(a), sin(a)), vec2(cos(b), sin(b)), u01.y);
+    return s * mix(circle_point(a), circle_point(a + 2.0 * PI / n), u01.y);
 }
 
 // Directions about +z, density cos θ / π.
@@ -38,8 +37,7 @@ vec3 sphere_sample(vec2 u01)
 {
     float z = 1.0 - 2.0 * u01.x;
     float r = safe_sqrt(1.0 - z * z);
-    float phi = 2.0 * PI * u01.y;
-    return vec3(r * cos(phi), r * sin(phi), z);
+    return vec3(r * circle_point(2.0 * PI * u01.y), z);
 }
 
 // Barycentric coordinates of the second and third vertex, uniform over a triangle (Heitz 2019).
@@ -94,9 +92,8 @@ float gaussian_sample(float u)
 float blackman_harris_cdf(float x)
 {
     float t = 0.5 * (x + 1.0);
-    float sum = 0.35875 * t - 0.48829 * sin(2.0 * PI * t) * INV_TWO_PI + 0.14128 * sin(4.0 * PI * t) * 0.5 * INV_TWO_PI
-        - 0.01168 * sin(6.0 * PI * t) * INV_TWO_PI / 3.0;
-    return sum / 0.35875;
+    vec3 sines = vec3(circle_point(2.0 * PI * t).y, circle_point(4.0 * PI * t).y, circle_point(6.0 * PI * t).y);
+    return (0.35875 * t + dot(vec3(-0.48829, 0.14128 / 2.0, -0.01168 / 3.0) * INV_TWO_PI, sines)) / 0.35875;
 }
 
 float blackman_harris_sample(float u)

@@ -37,7 +37,7 @@ float opening_weight(vec2 at)
     float sector = 2.0 * PI / float(frame.blades);
     float angle = atan(p.y, p.x) - frame.blade_rotation;
     float off = angle - (floor(angle / sector) + 0.5) * sector;
-    return length(p) * cos(off) <= cos(0.5 * sector) ? 1.0 : 0.0;
+    return length(p) * circle_point(off).x <= circle_point(0.5 * sector).x ? 1.0 : 0.0;
 #else
     return dot(p, p) <= 1.0 ? 1.0 : 0.0;
 #endif

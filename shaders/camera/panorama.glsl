@@ -12,13 +12,12 @@ CameraRay orthographic_sample(vec2 film_01)
 // Longitude to the right and latitude up, the view in the middle.
 CameraRay equirectangular_sample(vec2 film_01)
 {
-    float longitude = (2.0 * film_01.x - 1.0) * PI;
-    float latitude = (0.5 - film_01.y) * PI;
-    float across = cos(latitude);
-    vec3 view = vec3(across * sin(longitude), sin(latitude), across * cos(longitude));
+    vec2 longitude = circle_point((2.0 * film_01.x - 1.0) * PI);
+    vec2 latitude = circle_point((0.5 - film_01.y) * PI);
+    vec3 view = vec3(latitude.x * longitude.y, latitude.y, latitude.x * longitude.x);
     // The root of the solid angle of the pixel
     vec2 step = vec2(2.0 * PI, PI) / vec2(frame.film_size);
-    float spread = sqrt(step.x * step.y * max(across, 0.0));
+    float spread = sqrt(step.x * step.y * max(latitude.x, 0.0));
     return CameraRay(frame.camera_position, world_from_view(view), vec3(1.0), 0.0, spread);
 }
 
@@ -34,8 +33,9 @@ CameraRay fisheye_sample(vec2 film_01)
     float cosine = 1.0 - 2.0 * half_sine * half_sine;
     float spread = pixel_height() * 2.0 * frame.fisheye_scale;
 #else
-    float sine = sin(r * frame.fisheye_scale);
-    float cosine = cos(r * frame.fisheye_scale);
+    vec2 bent = circle_point(r * frame.fisheye_scale);
+    float cosine = bent.x;
+    float sine = bent.y;
     float spread = pixel_height() * frame.fisheye_scale;
 #endif
     vec2 across = r > 0.0 ? plane * (sine / r) : vec2(0.0);

@@ -1,4 +1,5 @@
 // Where things that move are at a time: src/prepare/motion.rs takes their maps apart.
+#include "base/math.glsl"
 #include "shared/bindings.glsl"
 
 // Rows of a map to the world, and of its inverse.
@@ -15,8 +16,8 @@ Motion motion_fetch(uint w)
 Place motion_place(Motion m, float time)
 {
     // The rotation turns steadily along the great arc (Shoemake 1985)
-    float angle = m.angle * time;
-    vec4 q = normalize(m.turn * cos(angle) + m.turn_across * sin(angle));
+    vec2 part = circle_point(m.angle * time);
+    vec4 q = normalize(m.turn * part.x + m.turn_across * part.y);
     vec3 v = q.xyz;
     vec3 twice = 2.0 * v;
     vec3 turn0 = vec3(1.0 - twice.y * v.y - twice.z * v.z, twice.x * v.y - twice.z * q.w, twice.x * v.z + twice.y * q.w);

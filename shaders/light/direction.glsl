@@ -10,13 +10,13 @@ vec2 equirectangular_uv(vec3 d)
 
 vec3 equirectangular_direction(vec2 uv)
 {
-    float phi = (uv.x - 0.5) * 2.0 * PI;
-    float theta = (uv.y - 0.5) * PI;
-    return vec3(sin(phi) * cos(theta), sin(theta), -cos(phi) * cos(theta));
+    vec2 longitude = circle_point((uv.x - 0.5) * 2.0 * PI);
+    vec2 latitude = circle_point((uv.y - 0.5) * PI);
+    return vec3(longitude.y * latitude.x, latitude.y, -longitude.x * latitude.x);
 }
 
 // Density over solid angle of a uniform choice of uv.
-float equirectangular_pdf(vec2 uv) { return 1.0 / (2.0 * PI * PI * max(cos((uv.y - 0.5) * PI), 1e-6)); }
+float equirectangular_pdf(vec2 uv) { return 1.0 / (2.0 * PI * PI * max(circle_point((uv.y - 0.5) * PI).x, 1e-6)); }
 
 // The octahedral square of equal areas (Clarberg 2008; pbrt-v4, section 3.8.3, whose z is y here and whose y is −z): the middle is
 // +y, the middles of the right and upper edges are +x and +z, and the corners are −y. The density of a uniform choice is 1 / 4π.
@@ -38,7 +38,8 @@ vec3 equal_area_direction(vec2 uv)
     float phi = r > 0.0 ? ((abs(p.y) - abs(p.x)) / r + 1.0) * (0.25 * PI) : 0.0;
     float y = 1.0 - r * r;
     float across = r * safe_sqrt(2.0 - r * r);
-    return vec3(p.x < 0.0 ? -cos(phi) : cos(phi), 0.0, p.y < 0.0 ? -sin(phi) : sin(phi)) * across
+    vec2 turned = circle_point(phi) * across;
+    return vec3(p.x < 0.0 ? -turned.x : turned.x, 0.0, p.y < 0.0 ? -turned.y : turned.y)
         + vec3(0.0, above < 0.0 ? -y : y, 0.0);
 }
 

@@ -25,12 +25,11 @@ vec3 part_normal(Light light, vec3 p)
 
 vec3 part_point(Light light, vec2 u01)
 {
-    float phi = 2.0 * PI * light.uv1.y * u01.y;
     float z = light.kind == LIGHT_SPHERE_PART ? mix(light.uv2.x, light.uv2.y, u01.x) : light.kind == LIGHT_CYLINDER ? u01.x : 0.0;
     float r = 1.0;
     if (light.kind == LIGHT_SPHERE_PART) r = safe_sqrt(1.0 - z * z);
     if (light.kind == LIGHT_DISK_PART) r = sqrt(mix(sqr(light.uv2.x), 1.0, u01.x));
-    return vec3(r * cos(phi), r * sin(phi), z);
+    return vec3(r * circle_point(2.0 * PI * light.uv1.y * u01.y), z);
 }
 
 // u and v as the surface has them.

@@ -52,7 +52,8 @@ SphericalRectangle spherical_rectangle(Light light, vec3 from)
 vec2 spherical_rectangle_sample(SphericalRectangle r, vec2 u01)
 {
     float au = u01.x * r.solid_angle + r.k;
-    float fu = (cos(au) * r.b0 - r.b1) / sin(au);
+    vec2 turned = circle_point(au);
+    float fu = (turned.x * r.b0 - r.b1) / turned.y;
     float cu = clamp(inversesqrt(fu * fu + r.b0 * r.b0) * (fu > 0.0 ? 1.0 : -1.0), -1.0, 1.0);
     float xu = -(cu * r.z0) * inversesqrt(max(1.0 - cu * cu, 1e-12));
     xu = clamp(xu, r.x0, r.x1);

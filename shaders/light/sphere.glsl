@@ -66,9 +66,8 @@ LightSample sphere_sample_light(Light light, vec3 from, vec2 u01)
     float root = safe_sqrt(1.0 - sin2 / sin2_max);
     float cos_alpha = sin2 * inversesqrt(sin2_max) + cos_theta * root;
     float sin_alpha = sqrt(sin2) * (d2 - sqr(radius)) / (radius * (sqrt(d2) * cos_theta + radius * root));
-    float phi = 2.0 * PI * u01.y;
     vec3 towards = -axis * inversesqrt(d2);
-    vec3 n = basis_to_world(basis_around(towards), vec3(sin_alpha * cos(phi), sin_alpha * sin(phi), cos_alpha));
+    vec3 n = basis_to_world(basis_around(towards), vec3(sin_alpha * circle_point(2.0 * PI * u01.y), cos_alpha));
     vec2 uv = sphere_uv(sphere_object_point(map, radius * n));
     return light_surface_point(light, from, INV_TWO_PI / one_minus_cos_max, context_at(light.position + radius * n, uv, n));
 }

@@ -34,9 +34,8 @@ SphericalTriangle spherical_triangle(Light light, vec3 from)
 // u01.y a point of the arc from b to c' so that caps about b are uniform.
 vec3 spherical_triangle_sample(SphericalTriangle t, vec2 u01)
 {
-    float half_angle = 0.5 * u01.x * t.solid_angle;
-    float sine = sin(half_angle);
-    vec3 between = (t.g0 * cos(half_angle) - t.g1 * sine) * t.a + t.g2 * sine * t.c;
+    vec2 half_angle = circle_point(0.5 * u01.x * t.solid_angle);
+    vec3 between = (t.g0 * half_angle.x - t.g1 * half_angle.y) * t.a + t.g2 * half_angle.y * t.c;
     vec3 corner = normalize(2.0 * dot(t.a, between) / dot(between, between) * between - t.a);
     // 1 − cos of the whole arc, and of its part
     vec3 chord = corner - t.b;

@@ -41,8 +41,7 @@ BsdfSample phong_sample(Bsdf b, vec3 wo, float lobe, vec2 u01)
     } else {
         float cos_alpha = pow(u01.x, 1.0 / (b.exponent + 1.0));
         float sin_alpha = safe_sqrt(1.0 - cos_alpha * cos_alpha);
-        float phi = 2.0 * PI * u01.y;
-        vec3 around = vec3(sin_alpha * cos(phi), sin_alpha * sin(phi), cos_alpha);
+        vec3 around = vec3(sin_alpha * circle_point(2.0 * PI * u01.y), cos_alpha);
         wi = basis_to_world(basis_around(vec3(-wo.xy, wo.z)), around);
     }
     float pdf = phong_pdf(b, wo, wi);

@@ -123,6 +123,25 @@ fn rays_start_on_the_side_of_the_normal() {
 }
 
 #[test]
+fn points_of_the_circle_are_on_it() {
+    let glsl = "#include \"base/math.glsl\"
+        void probe(uint i) { store_values(i, floatBitsToUint(vec4(circle_point(uintBitsToFloat(fetch_points(i).x)), 0.0, 0.0))); }";
+    let mut random = Random(11);
+    let eighths = (-64..=64).map(|i| i as f32 * std::f32::consts::FRAC_PI_4);
+    let angles: Vec<f32> = eighths
+        .flat_map(|angle| [angle.next_down(), angle, angle.next_up()])
+        .chain((0..20_000).map(|_| random.between(-50.0, 50.0)))
+        .collect();
+    let inputs: Vec<Word> = angles.iter().map(|&angle| floats(angle, 0.0, 0.0, 0.0)).collect();
+    let values = Probe::new().both(glsl, &inputs, inputs.len(), inputs.len());
+    for (&angle, value) in angles.iter().zip(&values) {
+        let [x, y, ..] = as_doubles(*value);
+        let (sin, cos) = f64::from(angle).sin_cos();
+        assert!((x - cos).abs() < 1.5e-7 && (y - sin).abs() < 1.5e-7, "{angle}: {x} {y}, not {cos} {sin}");
+    }
+}
+
+#[test]
 fn bases_are_orthonormal() {
     let glsl = "#include \"base/math.glsl\"
         void probe(uint i) {
