@@ -2,8 +2,7 @@
 
 use crate::Result;
 use crate::film::Frame;
-use crate::prepare::View;
-use crate::render::{Next, Renderer};
+use crate::render::{Next, Renderer, View};
 use crate::scene::{Filter, FilterKind, Projection, Sampler, Scene};
 
 /// What the pixels of a generation see in their middles.

@@ -22,11 +22,13 @@ pub use resident::Resident;
 pub use slicing::Slicing;
 pub use uploads::Uploads;
 
+pub use crate::prepare::View;
+
 use crate::Result;
 use crate::film::{self, Film};
 use crate::gpu::{DeviceInfo, DeviceType, Gpu};
 use crate::layout::{Backend, Frame, WORD_BYTES};
-use crate::prepare::{Prepared, Stage, View};
+use crate::prepare::{Prepared, Stage};
 use crate::scene::Scene;
 use std::sync::Arc;
 use std::time::Duration;

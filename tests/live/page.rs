@@ -311,7 +311,7 @@ fn panel(stage: &mut Stage) -> Vec<(String, Vec<String>)> {
 fn the_panel_has_the_values_under_the_pointer() {
     let Some(mut stage) = Stage::of(level()) else { return };
     let probe = |text: &str| format!("document.getElementById('probe').innerText.includes('{text}')");
-    let check = |stage: &mut Stage, x: usize, y: usize| {
+    let check = |stage: &mut Stage, x: usize, y: usize, names: &[&str]| {
         let (shot, panel) = (stage.shot(), panel(stage));
         let (picture, i) = (&shot.picture, y * 16 + x);
         let right: [(&str, &[f32]); 7] = [
@@ -323,7 +323,10 @@ fn the_panel_has_the_values_under_the_pointer() {
             ("depth", &[picture.depth[i]]),
             ("samples", &[8.0]),
         ];
-        assert_eq!(panel.len(), right.len());
+        assert_eq!(panel.len(), right.len() + names.len());
+        for ((name, texts), right) in panel[right.len()..].iter().zip(names) {
+            assert_eq!(format!("{name} {}", texts.join(" ")), *right);
+        }
         for ((name, texts), (right_name, values)) in panel.iter().zip(right) {
             assert_eq!((name.as_str(), texts.len()), (right_name, values.len()));
             for (text, &value) in texts.iter().zip(values) {
@@ -335,16 +338,23 @@ fn the_panel_has_the_values_under_the_pointer() {
             }
         }
     };
-    for (x, y) in [(8, 6), (13, 8), (15, 0)] {
+    for (x, y, names) in [
+        (8, 6, &["object shape 1", "material clay"][..]),
+        (13, 8, &["object instance 1", "material papered"]),
+        (15, 0, &[]),
+    ] {
         let at = stage.place(x, y);
         stage.mouse("mouseMoved", at, &json!({}));
         stage.until(&probe(&format!("x y {x} {y}")));
-        check(&mut stage, x, y);
+        for name in names {
+            stage.until(&probe(name));
+        }
+        check(&mut stage, x, y, names);
     }
     // The pointer rests, and the picture is another one
     stage.room.edit("scene.toml", "color = 0.2", "color = 0.5");
     stage.until(&probe("rgb 0.5000 0.5000 0.5000"));
-    check(&mut stage, 15, 0);
+    check(&mut stage, 15, 0, &[]);
     let bar = stage.middle("help");
     stage.mouse("mouseMoved", bar, &json!({}));
     stage.until("document.getElementById('probe').innerText === ''");
