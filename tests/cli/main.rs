@@ -10,6 +10,7 @@ mod checks;
 mod convert;
 mod diff;
 mod display;
+mod drivers;
 mod errors;
 mod models;
 mod pictures;
