@@ -12,6 +12,8 @@ use std::time::{Duration, Instant};
 const QUIET: Duration = Duration::from_millis(15);
 /// But no longer than so long after it began.
 const LONGEST: Duration = Duration::from_millis(250);
+/// What is under the pixels is found out when so long nothing happened, so that no step of the camera waits for it.
+const REST: Duration = Duration::from_millis(250);
 
 /// What happened since the last attempt.
 #[derive(Default)]
@@ -31,10 +33,20 @@ pub(super) fn direct(
     show: &Show,
 ) {
     let mut cause = None;
+    let mut asked = false;
     loop {
         attempt(&mut studio, &mut watch, painter, show, cause.take());
         loop {
-            let Ok(first) = events.recv() else { return };
+            let first =
+                match if asked { events.recv_timeout(REST) } else { events.recv().map_err(Into::into) } {
+                    Ok(first) => first,
+                    Err(RecvTimeoutError::Timeout) => {
+                        asked = false;
+                        pick(&mut studio, show);
+                        continue;
+                    }
+                    Err(RecvTimeoutError::Disconnected) => return,
+                };
             let begun = Instant::now();
             let mut happened = Happened::default();
             happened.take(first, &mut studio);
@@ -49,12 +61,10 @@ pub(super) fn direct(
             if happened.quit {
                 return;
             }
+            asked |= happened.asked;
             if happened.looked || studio.touched_by(&happened.edited) {
                 cause = Some(begun);
                 break;
-            }
-            if happened.asked {
-                pick(&mut studio, show);
             }
         }
     }

@@ -1,15 +1,14 @@
 //! What is under each pixel: which object, and which material.
 
 use crate::Result;
-use crate::film::Frame;
 use crate::render::{Next, Renderer, View};
-use crate::scene::{Filter, FilterKind, Projection, Sampler, Scene};
+use crate::scene::{Filter, FilterKind, Projection, Rect, Sampler, Scene};
 
 /// What the pixels of a generation see in their middles.
 pub struct Picks {
     /// The generation.
     pub generation: u64,
-    frame: Option<Frame>,
+    window: Option<Rect>,
     objects: Names,
     materials: Names,
 }
@@ -43,25 +42,24 @@ impl Picks {
         let shapes = scene.shapes.iter().map(|shape| shape.name.clone());
         let objects = shapes.chain(scene.instances.iter().map(|instance| instance.name.clone())).collect();
         let materials = scene.materials.iter().map(|(_, name, _)| name.to_owned()).collect();
-        let mut picks = Self::none(generation);
+        let window = Some(scene.film.window());
         let mut look = |scene: Scene, view: View, names: Vec<String>| -> Result<Names> {
             let picture = open(scene, view)?.render(0, 1, &mut |_| Next::Continue)?.resolve();
-            picks.frame = Some(picture.frame);
             Ok(Names { names, numbers: picture.rgb.into_iter().map(View::number).collect() })
         };
         let objects = look(scene.clone(), View::Objects, objects)?;
         let materials = look(scene, View::Materials, materials)?;
-        Ok(Self { objects, materials, ..picks })
+        Ok(Self { generation, window, objects, materials })
     }
 
     /// Those of a generation of which nothing is known.
     pub(super) fn none(generation: u64) -> Self {
-        Self { generation, frame: None, objects: Names::default(), materials: Names::default() }
+        Self { generation, window: None, objects: Names::default(), materials: Names::default() }
     }
 
     /// The names of the object and of the material in a pixel of the whole picture; none where there is nothing.
     pub fn at(&self, [x, y]: [u32; 2]) -> [Option<&str>; 2] {
-        let pixel = self.frame.as_ref().and_then(|frame| frame.window.index(x, y));
+        let pixel = self.window.and_then(|window| window.index(x, y));
         [&self.objects, &self.materials].map(|names| names.of(pixel?))
     }
 }
