@@ -18,6 +18,13 @@ fn error(bytes: impl AsRef<[u8]>) -> String {
     error.at(Path::new("m.ply"), line, 0).to_string()
 }
 
+/// The quad with more properties of its vertices, and a row of them for each.
+fn quad_with(properties: &str, rows: [&str; 4]) -> String {
+    let header = HEADER.replace("element face", &format!("{properties}element face"));
+    let [a, b, c, d] = rows;
+    ascii(&header, &format!("0 0 0 {a}\n1 0 0 {b}\n1 1 0 {c}\n0 1 0 {d}\n4 0 1 2 3\n"))
+}
+
 /// A file with one property of every type, a list to pass over, an unknown element and a quad.
 fn binary(big: bool) -> Vec<u8> {
     let format = if big { "binary_big_endian" } else { "binary_little_endian" };
@@ -107,13 +114,10 @@ fn whole_numbers_of_colours_are_srgb_and_floats_are_linear() {
     let colored = |types: [&str; 2], rows: [&str; 4]| {
         let [color, alpha] = types;
         let properties = format!(
-            "property {color} red\nproperty {color} green\nproperty {color} blue\n{}element face",
+            "property {color} red\nproperty {color} green\nproperty {color} blue\n{}",
             if alpha.is_empty() { String::new() } else { format!("property {alpha} alpha\n") }
         );
-        let header = HEADER.replace("element face", &properties);
-        let [a, b, c, d] = rows;
-        let data = format!("0 0 0 {a}\n1 0 0 {b}\n1 1 0 {c}\n0 1 0 {d}\n4 0 1 2 3\n");
-        parse(ascii(&header, &data).as_bytes()).unwrap().colors
+        parse(quad_with(&properties, rows).as_bytes()).unwrap().colors
     };
     let near = |found: Vec4, expected: [f32; 4]| {
         assert!((found - Vec4::from_array(expected)).length() < 1e-5, "{found}, expected {expected:?}");
@@ -133,9 +137,7 @@ fn whole_numbers_of_colours_are_srgb_and_floats_are_linear() {
 fn a_second_set_and_tangents_of_any_length() {
     let with = |names: &[&str], rows: [&str; 4]| {
         let properties: String = names.iter().map(|name| format!("property float {name}\n")).collect();
-        let header = HEADER.replace("element face", &format!("{properties}element face"));
-        let [a, b, c, d] = rows;
-        ascii(&header, &format!("0 0 0 {a}\n1 0 0 {b}\n1 1 0 {c}\n0 1 0 {d}\n4 0 1 2 3\n"))
+        quad_with(&properties, rows)
     };
     let read = |names: &[&str], rows| parse(with(names, rows).as_bytes()).unwrap();
     let tangent = ["tx", "ty", "tz", "tw"];

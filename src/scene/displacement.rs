@@ -40,6 +40,6 @@ pub struct Displacement {
 }
 
 impl Displacement {
-    /// Triangles that a mesh may be cut into where nothing is said.
+    /// Triangles that a mesh may be cut into where nothing is said: about a gigabyte with all that belongs to them.
     pub const USUAL_MOST_TRIANGLES: u32 = 4_000_000;
 }
