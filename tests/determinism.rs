@@ -31,12 +31,9 @@ fn everything() -> Scene {
     let texels = (0..15 * 7).map(|_| [0; 4].map(|_: u8| (random.uniform() * 256.0) as u8)).collect();
     let image = Image { width: 15, height: 7, texels: Texels::Rgba8(texels) };
     let picture = Value::Texture(s.picture(image, |t| t.color_space = ColorSpace::Srgb));
-    let floor = s.material(Surface::Diffuse { color: picture }, None);
+    let floor = s.material(Surface::diffuse(picture), None);
     s.quad(Vec3::new(-6.0, 0.0, 6.0), Vec3::X * 12.0, Vec3::NEG_Z * 12.0, floor);
-    let phong = s.material(
-        Surface::Phong { diffuse: grey(0.3), specular: picture, exponent: Value::Constant(20.0) },
-        None,
-    );
+    let phong = s.material(Surface::phong(grey(0.3), picture, Value::Constant(20.0)), None);
     let metal = s.conductor(0.9, 0.2, Fresnel::Exact);
     let mirror = s.conductor(0.9, 0.0, Fresnel::Schlick);
     let clear = s.glass(1.5, 0.0, Vec3::new(0.1, 0.4, 0.2), false);

@@ -1,5 +1,6 @@
 // The menu of lights, and the choice among them. Kinds that the scene does not use are left out by switches of the
 // variant: HAS_LIGHTS, HAS_ENVIRONMENT, and HAS_LIGHT_… for each kind in the table.
+#include "light/generated/menu.glsl"
 #include "light/punctual.glsl"
 #include "light/sphere.glsl"
 #include "light/quad.glsl"
@@ -14,12 +15,6 @@ LightSample light_sample_one(Light light, vec3 from, vec2 u01)
     switch (light.kind) {
 #ifdef HAS_LIGHT_POINT
     case LIGHT_POINT: return point_sample(light, from);
-#endif
-#ifdef HAS_LIGHT_SPOT
-    case LIGHT_SPOT: return spot_sample(light, from);
-#endif
-#ifdef HAS_LIGHT_DISTANT
-    case LIGHT_DISTANT: return distant_sample(light);
 #endif
 #ifdef HAS_LIGHT_PROJECTION
     case LIGHT_PROJECTION: return projection_sample(light, from);
@@ -44,7 +39,7 @@ LightSample light_sample_one(Light light, vec3 from, vec2 u01)
 #ifdef HAS_LIGHT_PATCH
     case LIGHT_PATCH: return patch_sample_light(light, from, u01);
 #endif
-    default: return LIGHT_NOTHING;
+    default: return punctual_sample(light, from, u01);
     }
 }
 

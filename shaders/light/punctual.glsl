@@ -1,6 +1,6 @@
-// Lights without extent: point, spot, distant, projection; and the textures that drive them.
-// Switches: TEXTURED_LIGHTS, EQUAL_AREA_LIGHTS, and HAS_LIGHT_… for each kind.
-#include "light/sample.glsl"
+// What lights without extent share; a point, and a picture thrown from one; and the textures that drive them all.
+// Switches: TEXTURED_LIGHTS, EQUAL_AREA_LIGHTS, HAS_LIGHT_PROJECTION.
+#include "light/generated/inputs.glsl"
 #include "light/direction.glsl"
 
 // A world direction in the space of the light, which shines along −z.
@@ -15,21 +15,6 @@ LightSample point_sample(Light light, vec3 from)
     float d2 = dot(to, to);
     if (d2 == 0.0) return LIGHT_NOTHING;
     return LightSample(to * inversesqrt(d2), light.position, vec3(0.0), 0.0, light.radiance / d2, 1.0, true, false);
-}
-
-// Smooth from 0 at the outer cone to 1 at the inner (pbrt-v4, section 12.2.1).
-LightSample spot_sample(Light light, vec3 from)
-{
-    LightSample s = point_sample(light, from);
-    float cos_theta = -dot(s.wi, light.edge_u);
-    float t = clamp((cos_theta - light.b) / max(light.a - light.b, 1e-7), 0.0, 1.0);
-    s.radiance *= t * t * (3.0 - 2.0 * t);
-    return s;
-}
-
-LightSample distant_sample(Light light)
-{
-    return LightSample(-light.edge_u, vec3(0.0), vec3(0.0), 0.0, light.radiance, 1.0, true, true);
 }
 
 // Place in the picture of a direction that goes forward: (0, 0) to (1, 1) is what the light fills.
@@ -57,9 +42,7 @@ vec3 punctual_texture(Light light, vec3 from, vec3 wi)
     if (light.kind == LIGHT_PROJECTION) uv = projection_uv(light, local);
 #endif
     TextureContext context = direction_context(-wi, local, uv);
-#ifdef HAS_LIGHT_DISTANT
-    if (light.kind == LIGHT_DISTANT) context = context_at(from, punctual_local(light, from).xy, light.edge_u);
-#endif
+    if (punctual_is_far(light.kind)) context = context_at(from, punctual_local(light, from).xy, light.edge_u);
     return max(texture_evaluate(light.texture, context).rgb, vec3(0.0));
 }
 #endif

@@ -9,7 +9,7 @@ struct Bsdf {
     vec3 specular;   // specular coefficient, transmittance, factor on what a dielectric reflects head-on, or η of a conductor
     vec3 k;          // k of a conductor
     float ior;       // index behind the geometric surface over index in front of it
-    float exponent;
+    vec2 numbers;    // of a BSDF of the table
     vec2 alpha;      // GGX widths; both 0 = smooth
     // The rest is of the principled model
     float metallic;
@@ -29,7 +29,7 @@ struct Bsdf {
     bool disperses;     // they differ; `ior` is that of the d line
 };
 
-// Where a channel of both colours of a material together is above 1, both are scaled down, so that no energy is made.
+// Where a channel of both colours of a BSDF together is above 1, both are scaled down, so that no energy is made.
 void bsdf_normalise(inout Bsdf b)
 {
     float most = max_component(b.color + b.specular);

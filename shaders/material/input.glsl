@@ -27,6 +27,12 @@ Material material_fetch(uint i)
 // see a constant, and leave the textures out.
 bool input_textured(uint place, uint which) { return ((TEXTURED_INPUTS >> (2u * place + which)) & 1u) != 0u; }
 
+// A number of a BSDF of the table: what a texture gives is kept in its range.
+float bsdf_number(float value, uint which, float least, float most)
+{
+    return input_textured(INPUT_INDEX, which) ? clamp(value, least, most) : value;
+}
+
 vec3 material_color(Material m, uint place, TextureContext context)
 {
     ColorInput of = color_input_unpack(fetch_materials(m.at + place));

@@ -4,6 +4,7 @@
 #include "material/conductor.glsl"
 #include "material/principled_inputs.glsl"
 #include "material/input.glsl"
+#include "material/generated/inputs.glsl"
 
 vec3 material_emission(Material m, TextureContext context) { return material_color(m, INPUT_EMISSION, context); }
 
@@ -22,15 +23,6 @@ vec2 material_alpha(Material m, uint place, uint squared, TextureContext context
     return max(alpha.x, alpha.y) < BSDF_SMOOTH ? alpha : max(alpha, 1e-4);
 }
 
-// The number that kinds call by other names: index of refraction, exponent.
-float material_index(Material m, TextureContext context)
-{
-    float index = material_numbers(m, INPUT_INDEX, context).x;
-    // What a texture says is kept where the kinds can take it
-    if (m.kind == MATERIAL_DIELECTRIC && input_textured(INPUT_INDEX, 0u)) index = clamp(index, 0.01, 100.0);
-    return index;
-}
-
 Bsdf material_bsdf(Material m, TextureContext context)
 {
     Bsdf b;
@@ -40,8 +32,10 @@ Bsdf material_bsdf(Material m, TextureContext context)
     if (m.kind != MATERIAL_UNLIT && input_textured(INPUT_COLOR, 0u)) b.color = min(b.color, vec3(1.0));
     b.specular = material_color(m, INPUT_SPECULAR, context);
     b.alpha = material_alpha(m, INPUT_ROUGHNESS, MATERIAL_SQUARED, context);
-    b.ior = material_index(m, context);
-    b.exponent = b.ior;
+    b.numbers = material_numbers(m, INPUT_INDEX, context);
+    b.ior = b.numbers.x;
+    // What a texture says is kept where glass can take it
+    if (m.kind == MATERIAL_DIELECTRIC && input_textured(INPUT_INDEX, 0u)) b.ior = clamp(b.ior, 0.01, 100.0);
 #ifdef HAS_DIELECTRIC
     // Glass that bends nothing has no half vectors, whatever its roughness.
     if (m.kind == MATERIAL_DIELECTRIC && abs(b.ior - 1.0) < 1e-4) b.alpha = vec2(0.0);
@@ -50,9 +44,7 @@ Bsdf material_bsdf(Material m, TextureContext context)
     b.k = material_color(m, INPUT_ABSORPTION, context);
     if (m.kind == MATERIAL_CONDUCTOR && m.mode == FRESNEL_INDEX) conductor_index(b);
 #endif
-#if defined(HAS_PHONG) || defined(HAS_DIFFUSE_TRANSMISSION)
-    if (m.kind == MATERIAL_PHONG || m.kind == MATERIAL_DIFFUSE_TRANSMISSION) bsdf_normalise(b);
-#endif
+    if (bsdf_has_parts(m.kind)) bsdf_normalise(b);
 #ifdef HAS_COATED_DIFFUSE
     if (m.kind == MATERIAL_COATED_DIFFUSE) material_interface(b, m, b.alpha);
 #endif

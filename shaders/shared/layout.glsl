@@ -57,15 +57,13 @@ const uint INSTANCE_PATCH = 7u; // Instance kind: bilinear patch; its root is th
 const uint INSTANCE_DEFAULT_UV = 1u; // Instance flag: the mesh has no uv, so that it is (0,0), (1,0), (1,1) on every triangle.
 const uint INSTANCE_TRIANGLE_LIGHTS = 2u; // Instance flag: each triangle is a light of its own; else they are one light together.
 const uint MATERIAL_UNLIT = 0u; // Material kind: colour is radiance.
-const uint MATERIAL_DIFFUSE = 1u; // Material kind: Lambertian.
-const uint MATERIAL_PHONG = 2u; // Material kind: modified Phong.
-const uint MATERIAL_CONDUCTOR = 3u; // Material kind: mirror or GGX metal.
-const uint MATERIAL_DIELECTRIC = 4u; // Material kind: smooth or GGX glass.
-const uint MATERIAL_PRINCIPLED = 5u; // Material kind: the model of glTF.
-const uint MATERIAL_MIX = 6u; // Material kind: one of two materials at each event.
-const uint MATERIAL_DIFFUSE_TRANSMISSION = 7u; // Material kind: Lambertian on both sides.
-const uint MATERIAL_COATED_DIFFUSE = 8u; // Material kind: a dielectric interface over a Lambertian base.
-const uint MATERIAL_COATED_CONDUCTOR = 9u; // Material kind: a dielectric interface over metal.
+const uint MATERIAL_CONDUCTOR = 1u; // Material kind: mirror or GGX metal.
+const uint MATERIAL_DIELECTRIC = 2u; // Material kind: smooth or GGX glass.
+const uint MATERIAL_PRINCIPLED = 3u; // Material kind: the model of glTF.
+const uint MATERIAL_MIX = 4u; // Material kind: one of two materials at each event.
+const uint MATERIAL_COATED_DIFFUSE = 5u; // Material kind: a dielectric interface over a Lambertian base.
+const uint MATERIAL_COATED_CONDUCTOR = 6u; // Material kind: a dielectric interface over metal.
+const uint MATERIAL_BSDFS = 7u; // Material kind: the first BSDF of the table; the others follow in its order.
 const uint MATERIAL_WORDS = 12u; // Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
 const uint MATERIAL_TWO_SIDED = 1u; // Material flag: it sends light out on both sides.
 const uint MATERIAL_SQUARED = 2u; // Material flag: what its roughness inputs give are roughnesses, to be squared.
@@ -106,18 +104,17 @@ const uint FRESNEL_NONE = 3u; // Conductor rule: the same at every angle.
 const uint PUPIL_INTERVALS = 64u; // Intervals of the distance from the middle of the film that have bounds of the exit pupil of their own.
 const uint FILTER_CELLS = 128u; // Cells of a pixel filter from its middle to its radius, a power of two.
 const uint LIGHT_POINT = 0u; // Light kind: point light.
-const uint LIGHT_SPOT = 1u; // Light kind: spot light.
-const uint LIGHT_DISTANT = 2u; // Light kind: parallel light.
-const uint LIGHT_SPHERE = 3u; // Light kind: sphere or ellipsoid.
-const uint LIGHT_QUAD = 4u; // Light kind: rectangle or parallelogram.
-const uint LIGHT_DISK = 5u; // Light kind: disk; edges are its radii.
-const uint LIGHT_TRIANGLE = 6u; // Light kind: triangle of a mesh.
+const uint LIGHT_SPHERE = 2u; // Light kind: sphere or ellipsoid.
+const uint LIGHT_QUAD = 3u; // Light kind: rectangle or parallelogram.
+const uint LIGHT_DISK = 4u; // Light kind: disk; edges are its radii.
+const uint LIGHT_TRIANGLE = 5u; // Light kind: triangle of a mesh.
 const uint LIGHT_TURNED = 2147483648u; // Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
-const uint LIGHT_PROJECTION = 7u; // Light kind: picture thrown from a point.
-const uint LIGHT_SPHERE_PART = 8u; // Light kind: part of a sphere.
-const uint LIGHT_DISK_PART = 9u; // Light kind: part of a disk.
-const uint LIGHT_CYLINDER = 10u; // Light kind: tube, or a part of it.
-const uint LIGHT_PATCH = 11u; // Light kind: bilinear patch.
+const uint LIGHT_PROJECTION = 1u; // Light kind: picture thrown from a point.
+const uint LIGHT_SPHERE_PART = 6u; // Light kind: part of a sphere.
+const uint LIGHT_DISK_PART = 7u; // Light kind: part of a disk.
+const uint LIGHT_CYLINDER = 8u; // Light kind: tube, or a part of it.
+const uint LIGHT_PATCH = 9u; // Light kind: bilinear patch.
+const uint LIGHT_PUNCTUAL = 10u; // Light kind: the first light of the table; the others follow in its order.
 const uint TEXELS_RGBA8 = 0u; // Texel format: a word holds 2×2 texels of 8 bits a channel.
 const uint TEXELS_RGBA8_SRGB = 1u; // Texel format: the same; colour is decoded before it is filtered.
 const uint TEXELS_RGBA16F = 2u; // Texel format: a word holds 2×1 texels of halves.
@@ -474,14 +471,14 @@ struct Light {
     float accept; // share of its slot of the alias table that is its own
     uint alias; // the light that has the rest of the slot
     vec3 position; // position, centre, corner or first vertex
-    float a; // radius (0: ellipsoid); -1 if a flat light faces against u × v; cosine of a spot's inner cone; half-width of a projection
+    float a; // radius (0: ellipsoid); -1 if a flat light faces against u × v; half-width of a projection at distance 1; first number of a light of the table
     vec3 edge_u; // first edge, second vertex less the first, or direction of a light without extent
-    float b; // area of a surface; cosine of the outer cone of a spot; half-height of a projection, both at distance 1
+    float b; // area of a surface; half-height of a projection at distance 1; second number of a light of the table
     vec3 edge_v; // second edge, third vertex less the first, or what is up for the texture of a light without extent
     uint two_sided; // 1 when it shines on both sides
     vec3 radiance; // radiance, intensity or irradiance, or a factor on that of its texture
     uint texture; // its texture, or NONE
-    vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a quadric, or of the twist of a patch
+    vec2 uv0; // uv of the first vertex of a triangle; x and y of the third axis of a quadric, or of the twist of a patch; third and fourth number of a light of the table
     vec2 uv1; // uv of the second vertex less the first; z of that axis or twist, and the turn of a part
     vec2 uv2; // uv of the third vertex less the first; least and greatest z of a part of a sphere; radius of the hole of a disk
     uint material; // material of a surface

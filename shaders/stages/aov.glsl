@@ -1,7 +1,7 @@
-// What denoisers are given beside the colour. Switches of the variant: MOVING_CAMERA, HAS_DIFFUSE_TRANSMISSION.
+// What denoisers are given beside the colour. Switch of the variant: MOVING_CAMERA.
 #include "stages/wave.glsl"
 #include "geometry/surface.glsl"
-#include "material/bsdf.glsl"
+#include "material/generated/inputs.glsl"
 #ifdef MOVING_CAMERA
 #include "geometry/motion.glsl"
 #endif
@@ -22,10 +22,7 @@ vec3 camera_position()
 void write_aov(uint slot, inout Path path, Surface surface, Bsdf bsdf, vec3 emitted, vec3 facing_normal)
 {
     vec3 albedo = bsdf.kind == MATERIAL_DIELECTRIC ? vec3(1.0) : bsdf.color;
-#ifdef HAS_DIFFUSE_TRANSMISSION
-    if (bsdf.kind == MATERIAL_DIFFUSE_TRANSMISSION) albedo += bsdf.specular;
-#endif
-    if (bsdf.kind == MATERIAL_PHONG) albedo += bsdf.specular;
+    if (bsdf_has_parts(bsdf.kind)) albedo += bsdf.specular;
     albedo = clamp(albedo + emitted, 0.0, 1.0);
     float depth = distance(camera_position(), surface.position);
     store_aovs(slot * AOV_WORDS, uvec4(floatBitsToUint(albedo), floatBitsToUint(depth)));

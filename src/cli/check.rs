@@ -127,7 +127,7 @@ fn compile_own_textures(scene: &Scene, prepared: &Prepared) -> Result<()> {
         return Ok(());
     }
     let mut sources = Sources::embedded();
-    sources.set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str())?;
+    render::add_generated(&mut sources, &prepared.texture_glsl)?;
     let key = render::key(scene, prepared, Stage::Evaluate, None, Backend::Storage);
     Compiler::new(sources, CacheOptions::from_environment()).kernel(&key)?;
     Ok(())

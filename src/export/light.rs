@@ -18,12 +18,6 @@ impl Writer<'_> {
                 map(&mut keys, mapping);
                 keys.transform("transform", &Affine3A::from_mat3(*frame));
             }
-            LightKind::Spot { position, cone_angle, falloff_angle } => {
-                keys = self.shining("spot", position, light);
-                aim(&mut keys, frame);
-                keys.number("cone_angle", cone_angle, 30.0);
-                keys.number("falloff_angle", falloff_angle, cone_angle.min(5.0));
-            }
             LightKind::Projection { position, fov, fov_axis, aspect } => {
                 keys = self.shining("projection", position, light);
                 aim(&mut keys, frame);
@@ -31,11 +25,18 @@ impl Writer<'_> {
                 axis(&mut keys, fov_axis);
                 keys.set("aspect", number(aspect));
             }
-            LightKind::Distant => {
-                keys = Keys::of_kind("distant");
-                keys.set("irradiance", self.color(&light.intensity));
-                strength(&mut keys, light.strength);
+            LightKind::Punctual(of) => {
+                if of.kind.shines.is_some() {
+                    keys = self.shining(of.kind.name, of.position, light);
+                } else {
+                    keys = Keys::of_kind(of.kind.name);
+                    keys.set("irradiance", self.color(&light.intensity));
+                    strength(&mut keys, light.strength);
+                }
                 aim(&mut keys, frame);
+                for (input, number) in of.kind.numbers.iter().zip(of.numbers) {
+                    keys.number(input.key, number, input.default);
+                }
             }
         }
         keys

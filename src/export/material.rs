@@ -4,8 +4,8 @@ use super::Writer;
 use super::keys::{Keys, color, number, one_or_two};
 use crate::Result;
 use crate::scene::{
-    Conductor, Derivative, Detail, Dielectric, Emission, Fresnel, Handle, Interface, Material, Mix, Opacity,
-    Principled, Roughness, Sides, Surface, Tangents,
+    Bsdf, Conductor, Derivative, Detail, Dielectric, Emission, Fresnel, Handle, Interface, Material, Mix,
+    Opacity, Principled, Roughness, Sides, Surface, Tangents,
 };
 use glam::Vec3;
 
@@ -37,21 +37,7 @@ impl Writer<'_> {
                 keys = Keys::of_kind("unlit");
                 keys.set("color", self.color(color));
             }
-            Surface::Diffuse { color } => {
-                keys = Keys::of_kind("diffuse");
-                self.put_color(&mut keys, "color", color, 0.5);
-            }
-            Surface::DiffuseTransmission { reflectance, transmittance } => {
-                keys = Keys::of_kind("diffuse_transmission");
-                self.put_color(&mut keys, "color", reflectance, 0.25);
-                self.put_color(&mut keys, "transmittance", transmittance, 0.25);
-            }
-            Surface::Phong { diffuse, specular, exponent } => {
-                keys = Keys::of_kind("phong");
-                self.put_color(&mut keys, "diffuse", diffuse, 0.5);
-                self.put_color(&mut keys, "specular", specular, 0.0);
-                self.put_amount(&mut keys, "exponent", exponent, 50.0);
-            }
+            Surface::Bsdf(bsdf) => keys = self.bsdf(bsdf),
             Surface::Conductor(conductor) => {
                 keys = Keys::of_kind("conductor");
                 self.conductor(&mut keys, conductor);
@@ -70,6 +56,17 @@ impl Writer<'_> {
             }
             Surface::Principled(principled) => keys = self.principled(principled),
             Surface::Mix(mix) => keys = self.mix(mix),
+        }
+        keys
+    }
+
+    fn bsdf(&self, bsdf: &Bsdf) -> Keys {
+        let mut keys = Keys::of_kind(bsdf.kind.name);
+        for (of, color) in bsdf.kind.colors.iter().zip(&bsdf.colors) {
+            self.put_color(&mut keys, of.key, color, of.default);
+        }
+        for (of, number) in bsdf.kind.numbers.iter().zip(&bsdf.numbers) {
+            self.put_amount(&mut keys, of.key, number, of.default);
         }
         keys
     }

@@ -99,7 +99,7 @@ mod tests {
             let triangles = vec![[0, 1, 2], [3, 4, 5], [5, 6, 7]];
             let mesh =
                 scene.meshes.add("box", Mesh { positions: positions.clone(), triangles, ..Mesh::default() });
-            let grey = Surface::Diffuse { color: Value::Constant(Vec3::ONE) };
+            let grey = Surface::diffuse(Value::Constant(Vec3::ONE));
             let material = scene.materials.add("grey", Material::new(grey, None));
             let world_from_object =
                 Affine3A::from_scale_rotation_translation(Vec3::splat(scale), glam::Quat::IDENTITY, at);
@@ -129,7 +129,7 @@ mod tests {
             let mut scene = Scene::default();
             let mesh = Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2]], ..Mesh::default() };
             let mesh = scene.meshes.add("sheet", mesh);
-            let grey = Surface::Diffuse { color: Value::Constant(Vec3::ONE) };
+            let grey = Surface::diffuse(Value::Constant(Vec3::ONE));
             let material = scene.materials.add("grey", Material::new(grey, None));
             let world_from_object = Affine3A::from_scale(Vec3::new(mirror, 1.0, 1.0));
             let instance =

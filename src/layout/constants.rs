@@ -125,24 +125,20 @@ constants! {
     INSTANCE_TRIANGLE_LIGHTS = 2;
     /// Material kind: colour is radiance.
     MATERIAL_UNLIT = 0;
-    /// Material kind: Lambertian.
-    MATERIAL_DIFFUSE = 1;
-    /// Material kind: modified Phong.
-    MATERIAL_PHONG = 2;
     /// Material kind: mirror or GGX metal.
-    MATERIAL_CONDUCTOR = 3;
+    MATERIAL_CONDUCTOR = 1;
     /// Material kind: smooth or GGX glass.
-    MATERIAL_DIELECTRIC = 4;
+    MATERIAL_DIELECTRIC = 2;
     /// Material kind: the model of glTF.
-    MATERIAL_PRINCIPLED = 5;
+    MATERIAL_PRINCIPLED = 3;
     /// Material kind: one of two materials at each event.
-    MATERIAL_MIX = 6;
-    /// Material kind: Lambertian on both sides.
-    MATERIAL_DIFFUSE_TRANSMISSION = 7;
+    MATERIAL_MIX = 4;
     /// Material kind: a dielectric interface over a Lambertian base.
-    MATERIAL_COATED_DIFFUSE = 8;
+    MATERIAL_COATED_DIFFUSE = 5;
     /// Material kind: a dielectric interface over metal.
-    MATERIAL_COATED_CONDUCTOR = 9;
+    MATERIAL_COATED_CONDUCTOR = 6;
+    /// Material kind: the first BSDF of the table; the others follow in its order.
+    MATERIAL_BSDFS = 7;
     /// Words of a material: a MaterialHead, then its inputs. Their places are the INPUT_… constants.
     MATERIAL_WORDS = 12;
     /// Material flag: it sends light out on both sides.
@@ -223,30 +219,28 @@ constants! {
     FILTER_CELLS = 128;
     /// Light kind: point light.
     LIGHT_POINT = 0;
-    /// Light kind: spot light.
-    LIGHT_SPOT = 1;
-    /// Light kind: parallel light.
-    LIGHT_DISTANT = 2;
     /// Light kind: sphere or ellipsoid.
-    LIGHT_SPHERE = 3;
+    LIGHT_SPHERE = 2;
     /// Light kind: rectangle or parallelogram.
-    LIGHT_QUAD = 4;
+    LIGHT_QUAD = 3;
     /// Light kind: disk; edges are its radii.
-    LIGHT_DISK = 5;
+    LIGHT_DISK = 4;
     /// Light kind: triangle of a mesh.
-    LIGHT_TRIANGLE = 6;
+    LIGHT_TRIANGLE = 5;
     /// Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
     LIGHT_TURNED = 1 << 31;
     /// Light kind: picture thrown from a point.
-    LIGHT_PROJECTION = 7;
+    LIGHT_PROJECTION = 1;
     /// Light kind: part of a sphere.
-    LIGHT_SPHERE_PART = 8;
+    LIGHT_SPHERE_PART = 6;
     /// Light kind: part of a disk.
-    LIGHT_DISK_PART = 9;
+    LIGHT_DISK_PART = 7;
     /// Light kind: tube, or a part of it.
-    LIGHT_CYLINDER = 10;
+    LIGHT_CYLINDER = 8;
     /// Light kind: bilinear patch.
-    LIGHT_PATCH = 11;
+    LIGHT_PATCH = 9;
+    /// Light kind: the first light of the table; the others follow in its order.
+    LIGHT_PUNCTUAL = 10;
     /// Texel format: a word holds 2×2 texels of 8 bits a channel.
     TEXELS_RGBA8 = 0;
     /// Texel format: the same; colour is decoded before it is filtered.

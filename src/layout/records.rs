@@ -344,11 +344,11 @@ records! {
         alias: u32,
         /// position, centre, corner or first vertex
         position: [f32; 3],
-        /// radius (0: ellipsoid); -1 if a flat light faces against u × v; cosine of a spot's inner cone; half-width of a projection
+        /// radius (0: ellipsoid); -1 if a flat light faces against u × v; half-width of a projection at distance 1; first number of a light of the table
         a: f32,
         /// first edge, second vertex less the first, or direction of a light without extent
         edge_u: [f32; 3],
-        /// area of a surface; cosine of the outer cone of a spot; half-height of a projection, both at distance 1
+        /// area of a surface; half-height of a projection at distance 1; second number of a light of the table
         b: f32,
         /// second edge, third vertex less the first, or what is up for the texture of a light without extent
         edge_v: [f32; 3],
@@ -358,7 +358,7 @@ records! {
         radiance: [f32; 3],
         /// its texture, or NONE
         texture: u32,
-        /// uv of the first vertex of a triangle; x and y of the third axis of a quadric, or of the twist of a patch
+        /// uv of the first vertex of a triangle; x and y of the third axis of a quadric, or of the twist of a patch; third and fourth number of a light of the table
         uv0: [f32; 2],
         /// uv of the second vertex less the first; z of that axis or twist, and the turn of a part
         uv1: [f32; 2],

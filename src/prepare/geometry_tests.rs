@@ -26,7 +26,7 @@ fn written(prepared: &Prepared, reference: u32, kept: u32) -> u32 {
 /// `copies` instances of a mesh of `triangles` triangles, and with `soup` a mesh that is placed once.
 fn scene(triangles: u32, copies: u32, soup: bool) -> Scene {
     let mut scene = Scene::default();
-    let surface = Surface::Diffuse { color: Value::Constant(Vec3::splat(0.5)) };
+    let surface = Surface::diffuse(Value::Constant(Vec3::splat(0.5)));
     let material = scene.materials.add("grey", Material::new(surface, None));
     let mesh = |count: u32| Mesh {
         positions: (0..count)
@@ -86,7 +86,7 @@ fn an_edit_builds_again_only_the_trees_that_it_touches() {
     assert_eq!(built(&before), 0);
     before.camera.position.x += 1.0;
     let grey = before.instances[0].material;
-    before.materials[grey].surface = Surface::Diffuse { color: Value::Constant(Vec3::splat(0.2)) };
+    before.materials[grey].surface = Surface::diffuse(Value::Constant(Vec3::splat(0.2)));
     before.environment = Some(Environment::new(Value::Constant(Vec3::ONE)));
     assert_eq!(built(&before), 0);
     before.instances[0].world_from_object.translation.y += 1.0;

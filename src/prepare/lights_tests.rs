@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 /// A mesh of separate triangles, alternately dark and bright, in `parts` parts of as many triangles each.
 fn stripes(triangles: u32, parts: u32) -> Scene {
     let mut scene = Scene::default();
-    let surface = Surface::Diffuse { color: Value::Constant(Vec3::splat(0.5)) };
+    let surface = Surface::diffuse(Value::Constant(Vec3::splat(0.5)));
     let dark = scene.materials.add("dark", Material::new(surface.clone(), None));
     let emission = Emission { radiance: Value::Constant(Vec3::ONE), two_sided: false };
     let bright = scene.materials.add("bright", Material::new(surface, Some(emission)));

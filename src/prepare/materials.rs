@@ -7,13 +7,13 @@ use crate::layout::{
     ColorInput, DIELECTRIC_SOLID, DIELECTRIC_THIN, FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE,
     FRESNEL_SCHLICK, INPUT_ABSORPTION, INPUT_CLEARCOAT, INPUT_COLOR, INPUT_EMISSION, INPUT_INDEX,
     INPUT_INTERFACE, INPUT_METALLIC, INPUT_MIX, INPUT_ROUGHNESS, INPUT_SHEEN, INPUT_SHEEN_ROUGHNESS,
-    INPUT_SPECULAR, MATERIAL_COATED_CONDUCTOR, MATERIAL_COATED_DIFFUSE, MATERIAL_CONDUCTOR,
-    MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_FRONT_ONLY,
-    MATERIAL_INTERFACE_SQUARED, MATERIAL_MIX, MATERIAL_PHONG, MATERIAL_PRINCIPLED, MATERIAL_SQUARED,
-    MATERIAL_TWO_SIDED, MATERIAL_UNLIT, MATERIAL_WORDS, Material, MaterialHead, MixInput, NONE, NumberInputs,
+    INPUT_SPECULAR, MATERIAL_BSDFS, MATERIAL_COATED_CONDUCTOR, MATERIAL_COATED_DIFFUSE, MATERIAL_CONDUCTOR,
+    MATERIAL_DIELECTRIC, MATERIAL_FRONT_ONLY, MATERIAL_INTERFACE_SQUARED, MATERIAL_MIX, MATERIAL_PRINCIPLED,
+    MATERIAL_SQUARED, MATERIAL_TWO_SIDED, MATERIAL_UNLIT, MATERIAL_WORDS, Material, MaterialHead, MixInput,
+    NONE, NumberInputs,
 };
 use crate::scene::{
-    self, CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Fresnel, Interface, Mix, Principled,
+    self, Bsdf, CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Fresnel, Interface, Mix, Principled,
     Roughness, Scene, Sides, Surface, Value,
 };
 use crate::{Error, Result};
@@ -66,23 +66,7 @@ impl Builder<'_, '_> {
                 self.kind(MATERIAL_UNLIT);
                 self.color(INPUT_COLOR, color);
             }
-            Surface::Diffuse { color } => {
-                self.kind(MATERIAL_DIFFUSE);
-                self.color(INPUT_COLOR, color);
-            }
-            Surface::DiffuseTransmission { reflectance, transmittance } => {
-                self.kind(MATERIAL_DIFFUSE_TRANSMISSION);
-                // There is no inside
-                self.record.head.mode = DIELECTRIC_THIN;
-                self.color(INPUT_COLOR, reflectance);
-                self.color(INPUT_SPECULAR, transmittance);
-            }
-            Surface::Phong { diffuse, specular, exponent } => {
-                self.kind(MATERIAL_PHONG);
-                self.color(INPUT_COLOR, diffuse);
-                self.color(INPUT_SPECULAR, specular);
-                self.numbers(INPUT_INDEX, [*exponent, NO_NUMBER]);
-            }
+            Surface::Bsdf(bsdf) => self.bsdf(bsdf),
             Surface::Conductor(conductor) => self.conductor(conductor),
             Surface::Dielectric(dielectric) => self.dielectric(dielectric),
             Surface::CoatedDiffuse(coated) => self.coated_diffuse(coated),
@@ -90,6 +74,15 @@ impl Builder<'_, '_> {
             Surface::Principled(principled) => self.principled(principled),
             Surface::Mix(mix) => self.mix(mix),
         }
+    }
+
+    fn bsdf(&mut self, bsdf: &Bsdf) {
+        self.kind(MATERIAL_BSDFS + bsdf.kind.index() as u32);
+        for (input, color) in [INPUT_COLOR, INPUT_SPECULAR].into_iter().zip(&bsdf.colors) {
+            self.color(input, color);
+        }
+        let number = |i: usize| bsdf.numbers.get(i).copied().unwrap_or(NO_NUMBER);
+        self.numbers(INPUT_INDEX, [number(0), number(1)]);
     }
 
     fn conductor(&mut self, conductor: &Conductor) {

@@ -3,8 +3,11 @@
 use super::Features;
 use super::lights::{Entry, mean};
 use super::textures::{References, picture_mean};
-use crate::layout::{LIGHT_DISTANT, LIGHT_POINT, LIGHT_PROJECTION, LIGHT_SPOT, Light, NONE};
-use crate::scene::{self, DirectionMapping, LightKind, Scene, Strength, Value, half_frustum};
+use crate::layout::{LIGHT_POINT, LIGHT_PROJECTION, LIGHT_PUNCTUAL, Light, NONE};
+use crate::scene::{
+    self, DirectionMapping, LightKind, PUNCTUAL_LIGHTS, Punctual, PunctualKind, Scene, Strength, Value,
+    half_frustum,
+};
 use glam::{DVec2, Vec2, Vec3};
 use std::f64::consts::PI;
 
@@ -19,6 +22,11 @@ pub(super) fn note(scene: &Scene, features: &mut Features) {
         features.equal_area_lights |=
             matches!(light.kind, LightKind::Point { mapping: DirectionMapping::EqualArea, .. });
     }
+}
+
+/// The row of the table that a kind of light is.
+pub(super) fn row(kind: u32) -> Option<&'static PunctualKind> {
+    PUNCTUAL_LIGHTS.get(kind.checked_sub(LIGHT_PUNCTUAL)? as usize).copied()
 }
 
 /// A light before the table is built.
@@ -41,11 +49,14 @@ pub(super) fn entry(scene: &Scene, textures: &References, light: &scene::Light) 
             extra: u32::from(mapping == DirectionMapping::EqualArea),
             ..base
         },
-        LightKind::Spot { position, cone_angle, falloff_angle } => {
-            let [a, b] = cone_cosines(cone_angle, falloff_angle);
-            Light { kind: LIGHT_SPOT, position: position.to_array(), a, b, ..base }
-        }
-        LightKind::Distant => Light { kind: LIGHT_DISTANT, ..base },
+        LightKind::Punctual(Punctual { kind, position, numbers: [a, b, c, d] }) => Light {
+            kind: LIGHT_PUNCTUAL + kind.index() as u32,
+            position: position.to_array(),
+            a,
+            b,
+            uv0: [c, d],
+            ..base
+        },
         LightKind::Projection { position, fov, fov_axis, aspect } => {
             let half = half_frustum(fov, fov_axis, aspect);
             Light { kind: LIGHT_PROJECTION, position: position.to_array(), a: half.x, b: half.y, ..base }
@@ -71,21 +82,11 @@ pub(super) fn scale(scene: &Scene, textures: &References, light: &scene::Light) 
     }
 }
 
-/// Cosines of the inner and the outer cone of a spot light.
-fn cone_cosines(cone_angle: f32, falloff_angle: f32) -> [f32; 2] {
-    [(cone_angle - falloff_angle).to_radians().cos(), cone_angle.to_radians().cos()]
-}
-
-/// The solid angle that a light fills in steradians, the soft edge of a spot counted by what it lets through; none for distant
-/// light.
+/// The solid angle that a light fills in steradians, what is not full counted by what it lets through; none of light from infinity.
 fn solid_angle(kind: &LightKind) -> Option<f64> {
     match *kind {
         LightKind::Point { .. } => Some(4.0 * PI),
-        LightKind::Spot { cone_angle, falloff_angle, .. } => {
-            let [inner, outer] = cone_cosines(cone_angle, falloff_angle);
-            Some(2.0 * PI * (1.0 - 0.5 * f64::from(inner + outer)))
-        }
-        LightKind::Distant => None,
+        LightKind::Punctual(light) => light.solid_angle(),
         LightKind::Projection { fov, fov_axis, aspect, .. } => {
             let Vec2 { x, y } = half_frustum(fov, fov_axis, aspect);
             let (x, y) = (f64::from(x), f64::from(y));
@@ -107,18 +108,12 @@ fn mean_sent(scene: &Scene, textures: &References, light: &scene::Light) -> f64 
     let Some(handle) = light.intensity.texture() else { return plain_mean(textures, &light.intensity) };
     let latitude = |uv: DVec2| (uv.y - 0.5) * PI;
     let weighed = match light.kind {
-        LightKind::Distant | LightKind::Point { mapping: DirectionMapping::EqualArea, .. } => {
-            picture_mean(scene, handle, |_| 1.0)
-        }
+        LightKind::Point { mapping: DirectionMapping::EqualArea, .. } => picture_mean(scene, handle, |_| 1.0),
         LightKind::Point { .. } => picture_mean(scene, handle, |uv| latitude(uv).cos()),
-        LightKind::Spot { cone_angle, falloff_angle, .. } => {
-            let [inner, outer] = cone_cosines(cone_angle, falloff_angle).map(f64::from);
-            picture_mean(scene, handle, |uv| {
-                let toward = latitude(uv).cos() * (2.0 * PI * (uv.x - 0.5)).cos();
-                let t = ((toward - outer) / (inner - outer).max(1e-7)).clamp(0.0, 1.0);
-                latitude(uv).cos() * t * t * (3.0 - 2.0 * t)
-            })
-        }
+        LightKind::Punctual(light) => picture_mean(scene, handle, |uv| {
+            let toward = latitude(uv).cos() * (2.0 * PI * (uv.x - 0.5)).cos();
+            light.shines(toward).map_or(1.0, |shines| latitude(uv).cos() * shines)
+        }),
         LightKind::Projection { fov, fov_axis, aspect, .. } => {
             let half = half_frustum(fov, fov_axis, aspect).as_dvec2();
             picture_mean(scene, handle, |uv| (1.0 + ((2.0 * uv - 1.0) * half).length_squared()).powf(-1.5))

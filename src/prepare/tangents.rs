@@ -95,7 +95,7 @@ mod tests {
         let mut scene = Scene::default();
         let texture = scene.textures.add("flat", Texture::Constant(Vec3::ONE));
         let map = NormalMap { texture, green_down: false, strength: 1.0, tangents: Tangents::MikkTSpace };
-        let mut material = Material::new(Surface::Diffuse { color: Value::Constant(Vec3::ONE) }, None);
+        let mut material = Material::new(Surface::diffuse(Value::Constant(Vec3::ONE)), None);
         material.detail.normal_map = Some(map);
         let material = scene.materials.add("bumpy", material);
         let mut mesh = Mesh {

@@ -1,7 +1,7 @@
 //! Units of the fixed-point sums of the film.
 
 use super::{Bounds, Prepared, punctual, textures};
-use crate::layout::{LIGHT_DISTANT, LIGHT_POINT, LIGHT_PROJECTION, LIGHT_SPOT, Light};
+use crate::layout::{LIGHT_POINT, LIGHT_PROJECTION, Light};
 use crate::scene::{Scene, Surface, Value};
 use glam::Vec3;
 
@@ -60,14 +60,18 @@ pub(super) fn choose(
 /// so near. A sample stands for all lights, so a light that is rarely chosen counts for more.
 fn punctual_radiance(intensity: f32, light: &Light, camera: Vec3, size: f32, receivers: &Bounds) -> f32 {
     let all = intensity / light.chance.max(1e-9);
-    match light.kind {
-        LIGHT_POINT | LIGHT_SPOT | LIGHT_PROJECTION => {
-            let position = light.position.into();
-            let distance = 0.25 * camera.distance(position).clamp(size / 64.0, size / 8.0);
-            let distance = distance.max(receivers.distance(position));
-            all / (distance * distance)
-        }
-        LIGHT_DISTANT => all,
-        _ => 0.0,
+    let has_place = match light.kind {
+        LIGHT_POINT | LIGHT_PROJECTION => true,
+        kind => match punctual::row(kind) {
+            Some(row) => row.shines.is_some(),
+            None => return 0.0,
+        },
+    };
+    if !has_place {
+        return all;
     }
+    let position = light.position.into();
+    let distance = 0.25 * camera.distance(position).clamp(size / 64.0, size / 8.0);
+    let distance = distance.max(receivers.distance(position));
+    all / (distance * distance)
 }

@@ -1,13 +1,14 @@
 //! Which switches a kernel is compiled with, for a scene.
 
-use super::{Features, Prepared, View};
+use super::{Features, Prepared, View, menus};
 use crate::layout::{
-    Backend, INPUT_EMISSION, LIGHT_CYLINDER, LIGHT_DISK, LIGHT_DISK_PART, LIGHT_DISTANT, LIGHT_PATCH,
-    LIGHT_POINT, LIGHT_PROJECTION, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPHERE_PART, LIGHT_SPOT, LIGHT_TRIANGLE,
-    MATERIAL_COATED_CONDUCTOR, MATERIAL_COATED_DIFFUSE, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC,
-    MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_PHONG, MATERIAL_PRINCIPLED, STACK_ENTRIES,
+    Backend, INPUT_EMISSION, LIGHT_CYLINDER, LIGHT_DISK, LIGHT_DISK_PART, LIGHT_PATCH, LIGHT_POINT,
+    LIGHT_PROJECTION, LIGHT_QUAD, LIGHT_SPHERE, LIGHT_SPHERE_PART, LIGHT_TRIANGLE, MATERIAL_DIELECTRIC,
+    STACK_ENTRIES,
 };
-use crate::scene::{FilterKind, FisheyeMapping, Focus, Opening, Projection, Sampler, Scene};
+use crate::scene::{
+    BSDFS, FilterKind, FisheyeMapping, Focus, Opening, PUNCTUAL_LIGHTS, Projection, Sampler, Scene,
+};
 use std::collections::BTreeMap;
 
 /// The kernels.
@@ -234,15 +235,10 @@ pub fn defines(
     }
     if scatters {
         let material = |kind: u32| features.material_kinds & 1 << kind != 0;
-        flag("HAS_DIFFUSE", material(MATERIAL_DIFFUSE));
-        flag("HAS_DIFFUSE_TRANSMISSION", material(MATERIAL_DIFFUSE_TRANSMISSION));
-        flag("HAS_PHONG", material(MATERIAL_PHONG));
-        flag("HAS_CONDUCTOR", material(MATERIAL_CONDUCTOR));
-        flag("HAS_DIELECTRIC", material(MATERIAL_DIELECTRIC));
-        flag("HAS_COATED_DIFFUSE", material(MATERIAL_COATED_DIFFUSE));
-        flag("HAS_COATED_CONDUCTOR", material(MATERIAL_COATED_CONDUCTOR));
+        for row in menus::materials(BSDFS) {
+            flag(&row.switch(), material(row.number));
+        }
         flag("HAS_INTERFACE_TABLES", !prepared.interfaces.is_empty());
-        flag("HAS_PRINCIPLED", material(MATERIAL_PRINCIPLED));
         flag("HAS_GLASS", material(MATERIAL_DIELECTRIC) || features.transmission);
         flag("HAS_TRANSMISSION", features.transmission);
         flag("HAS_CLEARCOAT", features.clearcoat);
@@ -255,8 +251,9 @@ pub fn defines(
         flag("HAS_LIGHTS", !prepared.lights.is_empty());
         let light = |kind: u32| features.light_kinds & 1 << kind != 0;
         flag("HAS_LIGHT_POINT", light(LIGHT_POINT));
-        flag("HAS_LIGHT_SPOT", light(LIGHT_SPOT));
-        flag("HAS_LIGHT_DISTANT", light(LIGHT_DISTANT));
+        for row in menus::lights(PUNCTUAL_LIGHTS) {
+            flag(&row.switch(), light(row.number));
+        }
         flag("HAS_LIGHT_PROJECTION", light(LIGHT_PROJECTION));
         flag("TEXTURED_LIGHTS", features.textured_lights);
         flag("EQUAL_AREA_LIGHTS", features.equal_area_lights);

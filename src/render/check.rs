@@ -1,5 +1,6 @@
 //! All kernels of a tree of shaders, compiled and examined without a device.
 
+use super::kernels::add_generated;
 use crate::gpu::examine;
 use crate::layout::{BINDINGS, Backend, Frame, Record as _};
 use crate::prepare::variants;
@@ -44,7 +45,7 @@ pub fn check_kernels(sources: &Sources, cache: &CacheOptions) -> Result<Checked>
     let mut sets = Vec::new();
     for set in variants()? {
         let mut sources = sources.clone();
-        sources.set_virtual("generated/textures.glsl", set.texture_glsl)?;
+        add_generated(&mut sources, &set.texture_glsl)?;
         sets.push((Compiler::new(sources, cache.clone()), set.kernels));
     }
     let jobs: Vec<Job<'_>> = sets

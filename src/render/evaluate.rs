@@ -1,6 +1,6 @@
 //! Values of textures at points that the host names.
 
-use super::kernels::key;
+use super::kernels::{add_generated, key};
 use super::resident::upload_texels;
 use super::threads_of;
 use crate::gpu::{Bindings, Buffer, Command, Gpu, Pipeline, Place};
@@ -41,7 +41,7 @@ impl Evaluator {
         backend: Backend,
     ) -> Result<Self> {
         let textures = prepare_textures(scene, asked)?;
-        compiler.sources_mut().set_virtual("generated/textures.glsl", textures.glsl.as_str())?;
+        add_generated(compiler.sources_mut(), &textures.glsl)?;
         let features =
             Features { vertex_color: textures.vertex_color, uv1: textures.uv1, ..Features::default() };
         let prepared = Prepared { features, ..Prepared::default() };

@@ -5,8 +5,8 @@ use crate::Result;
 use crate::gpu::{Command, Gpu, Layout, Pipeline};
 use crate::layout::Backend;
 use crate::prepare::{self, Prepared, Stage, View};
-use crate::scene::Scene;
-use crate::shader::{Compiler, KernelKey};
+use crate::scene::{BSDFS, PUNCTUAL_LIGHTS, Scene};
+use crate::shader::{Compiler, KernelKey, Sources};
 use std::sync::Arc;
 
 /// One pipeline a stage of the wave.
@@ -28,6 +28,16 @@ pub fn key(
     KernelKey { defines, ..KernelKey::new(prepare::kernel_file(stage, view)) }
 }
 
+/// Adds the files that are generated to a tree of shaders: menus, and the texture functions of a scene.
+///
+/// # Errors
+///
+/// None that a caller could avoid.
+pub fn add_generated(sources: &mut Sources, texture_glsl: &str) -> Result<()> {
+    let files = prepare::generated(texture_glsl, BSDFS, PUNCTUAL_LIGHTS);
+    files.into_iter().try_for_each(|(name, text)| sources.set_virtual(name, text))
+}
+
 impl Kernels {
     /// Compiles the stages of a wave for a scene and makes their pipelines. Gives the texture code of the scene to
     /// `compiler`.
@@ -42,7 +52,7 @@ impl Kernels {
         prepared: &Prepared,
         options: Options,
     ) -> Result<Self> {
-        compiler.sources_mut().set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str())?;
+        add_generated(compiler.sources_mut(), &prepared.texture_glsl)?;
         let layout = gpu.layout(options.backend)?;
         let mut pipelines = Vec::new();
         for stage in Stage::WAVE {

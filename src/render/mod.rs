@@ -16,7 +16,7 @@ mod wave;
 pub use accumulate::Accumulation;
 pub use check::{Checked, check_kernels};
 pub use evaluate::{Evaluator, displace};
-pub use kernels::{Kernels, key};
+pub use kernels::{Kernels, add_generated, key};
 pub use open::{Kept, Opened};
 pub use resident::Resident;
 pub use slicing::Slicing;

@@ -1,7 +1,7 @@
 //! Lights that are no surfaces, and the environment.
 
 use super::camera::half_height;
-use super::{FovAxis, Handle, Texture, Value};
+use super::{FovAxis, Handle, Punctual, Texture, Value};
 use glam::{Affine3A, Mat3, Vec2, Vec3};
 
 /// How a direction becomes a place in a picture. y is up in the space of the light.
@@ -51,19 +51,8 @@ pub enum LightKind {
         /// How a direction becomes the uv of a texture.
         mapping: DirectionMapping,
     },
-    /// A cone of light: full inside `cone_angle − falloff_angle`, smoothstep in the cosine to 0 at `cone_angle`. A texture is
-    /// looked up by direction, equirectangular.
-    Spot {
-        /// Position.
-        position: Vec3,
-        /// Half-angle of the cone in degrees, in (0, 180).
-        cone_angle: f32,
-        /// Width of the soft edge inside the cone, in degrees, in [0, cone_angle].
-        falloff_angle: f32,
-    },
-    /// Parallel light from infinitely far away. The uv of a texture is the place of the lit point across the light, in scene
-    /// units from the origin: u to the right and v upward, seen along the light.
-    Distant,
+    /// One of the table [`PUNCTUAL_LIGHTS`](super::PUNCTUAL_LIGHTS).
+    Punctual(Punctual),
     /// A picture thrown from a point through a rectangle (pbrt-v4, section 12.2.3): uv is (0, 0) at its lower left corner and
     /// (1, 1) at its upper right, seen from the light. Outside is no light.
     Projection {
@@ -92,17 +81,20 @@ impl Light {
 
     /// Parallel light of an irradiance in W/m², which travels along a unit vector.
     pub fn distant(direction: Vec3, irradiance: Vec3) -> Self {
-        Self::new(LightKind::Distant, Value::Constant(irradiance)).along(direction)
+        Self::new(LightKind::distant(0.0), Value::Constant(irradiance)).along(direction)
     }
 
     /// The same light in a space that is mapped to the world: its place and directions are, its strength is not.
     #[must_use]
     pub fn moved(mut self, map: &Affine3A) -> Self {
         match &mut self.kind {
-            LightKind::Point { position, .. }
-            | LightKind::Spot { position, .. }
-            | LightKind::Projection { position, .. } => *position = map.transform_point3(*position),
-            LightKind::Distant => {}
+            LightKind::Point { position, .. } | LightKind::Projection { position, .. } => {
+                *position = map.transform_point3(*position);
+            }
+            LightKind::Punctual(light) if light.kind.shines.is_some() => {
+                light.position = map.transform_point3(light.position);
+            }
+            LightKind::Punctual(_) => {}
         }
         let [direction, up] = [-self.world_from_light.z_axis, self.world_from_light.y_axis]
             .map(|axis| map.transform_vector3(axis).try_normalize().unwrap_or(axis));

@@ -1,6 +1,6 @@
 //! Materials: what a surface does with light.
 
-use super::{Detail, Handle, Sides, Store, Texture, Value};
+use super::{Bsdf, Detail, Handle, Sides, Store, Texture, Value};
 use glam::Vec3;
 
 /// How the reflectance of a conductor depends on the angle.
@@ -216,27 +216,8 @@ pub enum Surface {
         /// Radiance.
         color: Value<Vec3>,
     },
-    /// Lambertian (the lecture's third use).
-    Diffuse {
-        /// Reflectance, in [0, 1].
-        color: Value<Vec3>,
-    },
-    /// Lambertian on both sides, scaled down where reflectance + transmittance > 1.
-    DiffuseTransmission {
-        /// Part that goes back to the side from which light comes, in [0, 1].
-        reflectance: Value<Vec3>,
-        /// Part that goes on to the other side, in [0, 1].
-        transmittance: Value<Vec3>,
-    },
-    /// Modified Phong: kd/π + ks (n+2)/(2π) cosⁿ, scaled down where kd + ks > 1 (Lafortune and Willems 1994).
-    Phong {
-        /// Diffuse coefficient.
-        diffuse: Value<Vec3>,
-        /// Specular coefficient.
-        specular: Value<Vec3>,
-        /// Exponent n ≥ 0.
-        exponent: Value<f32>,
-    },
+    /// One of the table [`BSDFS`](super::BSDFS).
+    Bsdf(Bsdf),
     /// Metal.
     Conductor(Conductor),
     /// Glass, water.
@@ -249,11 +230,6 @@ pub enum Surface {
     Principled(Box<Principled>),
     /// One of two materials.
     Mix(Mix),
-}
-
-impl Surface {
-    /// Largest exponent of [`Surface::Phong`]: larger ones cannot be told from a mirror, and 32-bit powers of them fail.
-    pub const MOST_EXPONENT: f32 = 1e6;
 }
 
 /// Light that a surface sends out by itself.
@@ -311,13 +287,8 @@ impl Material {
     pub fn textures(&self) -> impl Iterator<Item = Handle<Texture>> {
         let widths = Roughness::textures;
         let surface = match &self.surface {
-            Surface::Unlit { color } | Surface::Diffuse { color } => vec![color.texture()],
-            Surface::DiffuseTransmission { reflectance, transmittance } => {
-                vec![reflectance.texture(), transmittance.texture()]
-            }
-            Surface::Phong { diffuse, specular, exponent } => {
-                vec![diffuse.texture(), specular.texture(), exponent.texture()]
-            }
+            Surface::Unlit { color } => vec![color.texture()],
+            Surface::Bsdf(bsdf) => bsdf.textures(),
             Surface::Conductor(conductor) => conductor.textures().to_vec(),
             Surface::CoatedDiffuse(CoatedDiffuse { color, interface }) => {
                 [&[color.texture()][..], &widths(&interface.roughness)].concat()

@@ -3,21 +3,25 @@
 //! World space is right-handed with y up; lengths are in scene units; angles in degrees; colours are
 //! linear Rec. 709 RGB.
 
+mod bsdf;
 mod camera;
 mod detail;
 mod displacement;
 mod exposure;
 mod film;
 mod geometry;
+mod input;
 mod light;
 mod material;
 mod patch;
+mod punctual;
 mod quadric;
 mod store;
 mod subdivide;
 mod texture;
 mod unit;
 
+pub use bsdf::{BSDFS, Bsdf, BsdfKind};
 pub(crate) use camera::LINES;
 pub use camera::{
     Aperture, Camera, FisheyeMapping, Focus, FovAxis, Lens, LensCamera, LensInterface, LensSystem, Measure,
@@ -28,6 +32,7 @@ pub use displacement::{Displacement, DisplacementDirection, EdgeLimit};
 pub use exposure::{Exposure, Meter, Shot, ToneCurve};
 pub use film::{Film, Filter, FilterKind, MAX_SAMPLES, MAX_SIDE, Rect, Render, Sampler};
 pub use geometry::{Instance, Mesh, MeshPart, Shape, ShapeKind};
+pub use input::{InputColor, InputNumber};
 pub(crate) use light::half_frustum;
 pub use light::{DirectionMapping, Environment, Light, LightKind, Strength, facing, facing_upright};
 pub use material::{
@@ -35,6 +40,7 @@ pub use material::{
     Principled, Roughness, Surface,
 };
 pub use patch::Patch;
+pub use punctual::{PUNCTUAL_LIGHTS, Punctual, PunctualKind};
 pub use quadric::{Extent, Quadric};
 pub use store::{Handle, Store};
 pub use texture::glsl;

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use dapple::gpu::{Command, DeviceChoice, Gpu, Layout, Pipeline, Place};
 use dapple::layout::{Backend, Frame, WORKGROUP};
-use dapple::render::backend_of;
+use dapple::render::{add_generated, backend_of};
 use dapple::shader::{CacheOptions, Compiler, KernelKey, Sources};
 
 /// A word of the buffers `points` and `values`.
@@ -136,7 +136,7 @@ impl Probe {
 /// The files of `shaders/` as they are on disk, and stubs of what a scene generates.
 pub fn sources() -> dapple::Result<Sources> {
     let mut sources = Sources::folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders"))?;
-    sources.set_virtual("generated/textures.glsl", NO_TEXTURES)?;
+    add_generated(&mut sources, NO_TEXTURES)?;
     Ok(sources)
 }
 

@@ -172,7 +172,7 @@ pub trait Build {
     fn picture(&mut self, image: Image, change: impl FnOnce(&mut ImageTexture)) -> Handle<Texture>;
 
     fn diffuse(&mut self, rho: f32) -> Handle<Material> {
-        self.material(Surface::Diffuse { color: grey(rho) }, None)
+        self.material(Surface::diffuse(grey(rho)), None)
     }
     fn black(&mut self) -> Handle<Material> {
         self.diffuse(0.0)
@@ -181,7 +181,7 @@ pub trait Build {
         self.material(Surface::Unlit { color }, None)
     }
     fn emitter(&mut self, radiance: Value<Vec3>, two_sided: bool) -> Handle<Material> {
-        self.material(Surface::Diffuse { color: grey(0.0) }, Some(Emission { radiance, two_sided }))
+        self.material(Surface::diffuse(grey(0.0)), Some(Emission { radiance, two_sided }))
     }
     fn conductor(&mut self, reflectance: f32, alpha: f32, fresnel: Fresnel) -> Handle<Material> {
         self.material(conductor(reflectance, alpha, fresnel), None)

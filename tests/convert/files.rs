@@ -44,7 +44,7 @@ proptest! {
     #[test]
     fn meshes_are_read_back(mesh in meshes()) {
         let mut scene = Scene::default();
-        let material = Material::new(Surface::Diffuse { color: dapple::scene::Value::Constant(Vec3::ONE) }, None);
+        let material = Material::new(Surface::diffuse(dapple::scene::Value::Constant(Vec3::ONE)), None);
         let material = scene.materials.add("white", material);
         let mesh = scene.meshes.add("mesh", mesh);
         let world_from_object = Affine3A::IDENTITY;

@@ -34,7 +34,7 @@ pub fn rough_coats() -> Scene {
     let number = Value::Texture(picture);
     let roughness = Roughness { u: number, v: Value::Constant(0.5), squared: true };
     let color = Value::Texture(picture);
-    let paper = Surface::DiffuseTransmission { reflectance: color, transmittance: color };
+    let paper = Surface::diffuse_transmission(color, color);
     let surfaces = coated(color, Fresnel::Exact, Interface { ior: 1.5, roughness });
     of(scene, surfaces.into_iter().chain([paper]))
 }

@@ -8,6 +8,7 @@ mod cameras;
 mod coats;
 mod scenes;
 mod switches;
+mod tables;
 
 use common::probe::{cache, sources};
 use dapple::gpu::examine;
@@ -26,7 +27,7 @@ fn kernels(backend: Backend) -> Vec<(String, Spirv)> {
     for (name, scene) in scenes() {
         let prepared: Prepared = prepare::prepare(&scene).unwrap_or_else(|e| panic!("{name}: {e}"));
         let mut sources = sources().unwrap();
-        sources.set_virtual("generated/textures.glsl", prepared.texture_glsl.as_str()).unwrap();
+        render::add_generated(&mut sources, &prepared.texture_glsl).unwrap();
         let compiler = Compiler::new(sources, cache());
         for view in [None].into_iter().chain(View::ALL.map(Some)) {
             for stage in Stage::ALL {

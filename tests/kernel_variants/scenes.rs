@@ -12,7 +12,7 @@ pub fn constant(x: f32) -> Value<Vec3> {
 }
 
 fn diffuse(color: f32) -> Surface {
-    Surface::Diffuse { color: constant(color) }
+    Surface::diffuse(constant(color))
 }
 
 fn glass(ior: f32, alpha: [f32; 2], absorption: f32) -> Surface {
@@ -134,8 +134,7 @@ fn shapes() -> Scene {
     }
     let (position, direction) = (Vec3::Y, -Vec3::Y);
     scene.lights.extend([
-        Light::new(LightKind::Spot { position, cone_angle: 30.0, falloff_angle: 5.0 }, constant(1.0))
-            .along(direction),
+        Light::new(LightKind::spot(position, 30.0, 5.0), constant(1.0)).along(direction),
         Light::distant(direction, Vec3::ONE),
     ]);
     let aperture = Aperture::Radius(0.1);
@@ -152,8 +151,7 @@ fn lobes() -> Scene {
     let mut scene = Scene::default();
     let roughness = Roughness::alphas(Value::Constant(0.1), Value::Constant(0.4));
     let metal = Conductor { reflectance: constant(0.9), fresnel: Fresnel::Schlick, roughness };
-    let phong =
-        Surface::Phong { diffuse: constant(0.4), specular: constant(0.4), exponent: Value::Constant(30.0) };
+    let phong = Surface::phong(constant(0.4), constant(0.4), Value::Constant(30.0));
     let surfaces =
         [glass(1.5, [0.0, 0.0], 1.0), glass(1.3, [0.3, 0.2], 0.0), Surface::Conductor(metal), phong];
     for surface in surfaces {
@@ -254,7 +252,7 @@ fn trees() -> Scene {
         last = scene.textures.add("mixed", Texture::Mix { a, b, amount: Value::Texture(sum) });
     }
     let placed = placed(&mut scene);
-    let shade = Surface::Diffuse { color: Value::Texture(last) };
+    let shade = Surface::diffuse(Value::Texture(last));
     let lamp = material(&mut scene, shade, Some(placed));
     let (value, filter) = (Value::Texture(last), Value::Texture(last));
     let detail = &mut scene.materials[lamp].detail;
@@ -301,7 +299,7 @@ fn corners(colors: bool, uvs: bool) -> Scene {
         last = scene.textures.add("second", Texture::Mapped { value: Value::Texture(last), mapping });
     }
     let value = Value::Texture(last);
-    let lamp = material(&mut scene, Surface::Diffuse { color: value }, Some(value));
+    let lamp = material(&mut scene, Surface::diffuse(value), Some(value));
     let detail = &mut scene.materials[lamp].detail;
     detail.opacity = Opacity { value: Value::Texture(last), cutoff: None, filter: value };
     detail.bump = Some(Bump { texture: last, height: 1.0, derivative: Derivative::Kernel, curvature: true });
@@ -322,13 +320,9 @@ fn textured() -> Scene {
     let linear = texture(&mut scene, bytes(), ColorSpace::Linear);
     let half = texture(&mut scene, Texels::Rgba16(vec![[9, 99, 2000, 65535]; 2]), ColorSpace::Linear);
     let float = texture(&mut scene, Texels::RgbaF32(vec![[0.5, 2.0, 3.0, 1.0]; 2]), ColorSpace::Linear);
-    let shade = Surface::Diffuse { color: Value::Texture(srgb) };
+    let shade = Surface::diffuse(Value::Texture(srgb));
     let lamp = material(&mut scene, shade, Some(Value::Texture(half)));
-    let phong = Surface::Phong {
-        diffuse: Value::Texture(linear),
-        specular: Value::Texture(half),
-        exponent: Value::Texture(float),
-    };
+    let phong = Surface::phong(Value::Texture(linear), Value::Texture(half), Value::Texture(float));
     let phong = material(&mut scene, phong, None);
     let metal = Conductor {
         reflectance: Value::Texture(srgb),
@@ -365,9 +359,9 @@ fn slides() -> Scene {
     let kinds = [
         LightKind::Point { position, mapping },
         LightKind::Point { position, mapping: DirectionMapping::Equirectangular },
-        LightKind::Spot { position, cone_angle: 30.0, falloff_angle: 5.0 },
+        LightKind::spot(position, 30.0, 5.0),
         LightKind::Projection { position, fov: 30.0, fov_axis, aspect: 2.0 },
-        LightKind::Distant,
+        LightKind::distant(0.0),
     ];
     scene.lights.extend(kinds.map(|kind| Light::new(kind, Value::Texture(handle))));
     scene.environment = surroundings(Value::Texture(handle)).map(|around| Environment { mapping, ..around });

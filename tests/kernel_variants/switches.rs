@@ -1,6 +1,7 @@
 //! The variants that `dapple shaders check` compiles have every switch and every file of the shaders.
 
 use dapple::prepare::{Variant, Variants, variants};
+use dapple::render::add_generated;
 use dapple::shader::Sources;
 use std::collections::BTreeSet;
 
@@ -81,7 +82,7 @@ fn every_file_goes_into_a_kernel() {
     let mut reached = BTreeSet::new();
     for Variants { texture_glsl, kernels } in variants().unwrap() {
         let mut sources = Sources::embedded();
-        sources.set_virtual("generated/textures.glsl", texture_glsl).unwrap();
+        add_generated(&mut sources, &texture_glsl).unwrap();
         let files: BTreeSet<_> = kernels.iter().map(|variant| variant.file).collect();
         reached.extend(files.into_iter().flat_map(|file| sources.reachable(file)));
     }

@@ -19,7 +19,7 @@ pub(super) fn floor_scene(surface: Surface, spp: u32) -> Scene {
 }
 
 pub(super) fn white() -> Surface {
-    Surface::Diffuse { color: grey(1.0) }
+    Surface::diffuse(grey(1.0))
 }
 
 /// Irradiance at the origin, facing +y, of a polygon of radiance 1 that is wholly above the horizon (Lambert 1760): half the
@@ -91,14 +91,14 @@ pub(super) fn rough(alpha: f32) -> Surface {
 }
 
 pub(super) fn shiny(kd: f32, ks: f32, n: f32) -> Surface {
-    Surface::Phong { diffuse: grey(kd), specular: grey(ks), exponent: Value::Constant(n) }
+    Surface::phong(grey(kd), grey(ks), Value::Constant(n))
 }
 
 /// Surfaces with the value of their BSDF.
 #[allow(clippy::type_complexity, reason = "a table of two columns")]
 pub(super) fn surfaces() -> [(Surface, Box<dyn Fn(DVec3, DVec3) -> f64>); 4] {
     [
-        (Surface::Diffuse { color: grey(0.7) }, Box::new(|_, _| 0.7 / PI)),
+        (Surface::diffuse(grey(0.7)), Box::new(|_, _| 0.7 / PI)),
         (shiny(0.3, 0.6, 30.0), Box::new(phong(0.3, 0.6, 30.0))),
         (rough(0.25), Box::new(ggx(0.25))),
         (rough(0.6), Box::new(ggx(0.6))),

@@ -19,7 +19,7 @@ fn furnace_of_a_diffuse_box() {
     for (rho, depth, roulette) in [(0.5, 3, false), (0.5, 40, true), (0.8, 60, true)] {
         let mut s = scene(8, 8, 256);
         (s.render.max_depth, s.render.russian_roulette) = (depth, roulette);
-        let m = s.materials.add("glow", glowing(Surface::Diffuse { color: grey(rho) }));
+        let m = s.materials.add("glow", glowing(Surface::diffuse(grey(rho))));
         let mesh = s.meshes.add("box", box_mesh(Vec3::new(-1.0, -0.7, -2.0), Vec3::new(1.5, 0.9, 1.0), true));
         s.place(mesh, m, Affine3A::IDENTITY);
         expect_grey(mean(&render(&s)), furnace(f64::from(rho), depth), 0.0);
@@ -30,7 +30,7 @@ fn furnace_of_a_diffuse_box() {
 fn furnace_of_a_diffuse_sphere_seen_from_inside() {
     let mut s = scene(8, 8, 256);
     s.render.max_depth = 30;
-    let m = s.materials.add("glow", glowing(Surface::Diffuse { color: grey(0.5) }));
+    let m = s.materials.add("glow", glowing(Surface::diffuse(grey(0.5))));
     s.sphere(Vec3::new(0.2, 0.1, 0.3), 2.0, m);
     expect_grey(mean(&render(&s)), furnace(0.5, 30), 0.0);
 }

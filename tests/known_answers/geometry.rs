@@ -13,13 +13,13 @@ fn uv_material(s: &mut Scene) -> Handle<Material> {
     let texels = (0..n * n).map(|i| [at(i % n), 1.0 - at(i / n), 0.25, 1.0]).collect();
     let image = Image { width: n, height: n, texels: Texels::RgbaF32(texels) };
     let texture = s.picture(image, |t| t.wrap = [Wrap::Clamp; 2]);
-    s.material(Surface::Diffuse { color: Value::Texture(texture) }, None)
+    s.material(Surface::diffuse(Value::Texture(texture)), None)
 }
 
 /// A grey whose front has a blue albedo of 1, because it sends out blue light.
 fn front_shines(s: &mut Scene, rho: f32) -> Handle<Material> {
     let emission = Emission { radiance: Value::Constant(Vec3::Z), two_sided: false };
-    s.material(Surface::Diffuse { color: grey(rho) }, Some(emission))
+    s.material(Surface::diffuse(grey(rho)), Some(emission))
 }
 
 /// One sample through the middle of each pixel, no light: what the rays meet.

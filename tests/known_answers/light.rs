@@ -70,7 +70,7 @@ fn lights_without_extent() {
     for turn in [0.0_f32, 12.0, 17.0, 24.0, 29.0] {
         let away = glam::Quat::from_axis_angle(at.normalize().any_orthonormal_vector(), turn.to_radians());
         let direction = away * -at.normalize();
-        let spot = LightKind::Spot { position: at, cone_angle: 30.0, falloff_angle: 15.0 };
+        let spot = LightKind::spot(at, 30.0, 15.0);
         let spot = Light::new(spot, grey(5.0)).along(direction);
         let (outer, inner) = (30_f64.to_radians().cos(), 15_f64.to_radians().cos());
         let t = ((f64::from(turn).to_radians().cos() - outer) / (inner - outer)).clamp(0.0, 1.0);
@@ -78,7 +78,7 @@ fn lights_without_extent() {
         expect_grey(with(spot), 5.0 / d2 * cos / PI * t * t * (3.0 - 2.0 * t), 2e-4);
     }
     let direction = Vec3::new(1.0, 2.0, -0.4).normalize();
-    let spot = LightKind::Spot { position: at, cone_angle: 30.0, falloff_angle: 15.0 };
+    let spot = LightKind::spot(at, 30.0, 15.0);
     assert_eq!(with(Light::new(spot, grey(1.0)).along(direction)).mean, [0.0; 3]);
 }
 

@@ -100,7 +100,7 @@ fn a_spot_light_aims_at_the_middle_of_its_picture() {
     let (outer, inner) = (50_f64.to_radians().cos(), 10_f64.to_radians().cos());
     for off in [Vec3::ZERO, Vec3::X * 0.9, Vec3::Z * 0.8, Vec3::new(-0.7, 0.0, -0.9)] {
         let mut s = floor_scene(white(), 4);
-        let kind = LightKind::Spot { position: at, cone_angle: 50.0, falloff_angle: 40.0 };
+        let kind = LightKind::spot(at, 50.0, 40.0);
         let (direction, up) = ((off - at).normalize(), Vec3::new(0.3, 1.0, 0.2));
         let light = textured(&mut s, kind, patches(31, 15));
         s.lights.push(Light { world_from_light: facing(direction, up).unwrap(), ..light });
@@ -156,7 +156,7 @@ fn a_cookie_of_stripes_lies_across_the_light() {
     });
     // Light that travels along +x and down: seen along it, right is +z, and a step along z is a step in u
     let direction = Vec3::new(0.6, -0.8, 0.0);
-    let light = Light::new(LightKind::Distant, Value::Texture(texture)).along(direction);
+    let light = Light::new(LightKind::distant(0.0), Value::Texture(texture)).along(direction);
     s.lights.push(light.clone());
     let stripe = |u: f64| if u.rem_euclid(2.0) < 1.0 { 1.0 } else { 3.0 };
     expect_pixels(&s, places(5.0).map(|at| [stripe(at.y) * 0.8 / PI; 3]), 1e-5);
@@ -213,7 +213,7 @@ fn sent(uv_to_solid_angle: impl Fn(DVec2) -> f64) -> f64 {
 fn power_is_what_is_sent_out() {
     let position = Vec3::Y;
     let point = |mapping| LightKind::Point { position, mapping };
-    let spot = LightKind::Spot { position, cone_angle: 60.0, falloff_angle: 60.0 };
+    let spot = LightKind::spot(position, 60.0, 60.0);
     let slide = LightKind::Projection { position, fov: 90.0, fov_axis: FovAxis::Vertical, aspect: 1.5 };
     let latitude = |uv: DVec2| 2.0 * PI * PI * ((uv.y - 0.5) * PI).cos();
     let soft = |uv: DVec2| {
@@ -241,7 +241,7 @@ fn power_is_what_is_sent_out() {
         let angle = match kind {
             LightKind::Point { .. } => 4.0 * PI,
             // ∫ smoothstep over the cosine from ½ to 1
-            LightKind::Spot { .. } => 2.0 * PI * 0.25,
+            LightKind::Punctual(_) => 2.0 * PI * 0.25,
             _ => 4.0 * (1.5 / 3.25_f64.sqrt()).asin().min((1.5 / (3.25 * 2.0_f64).sqrt()).asin()),
         };
         assert!((even * angle / 80.0 - 1.0).abs() < 1e-5, "{kind:?}: {even} · {angle}");

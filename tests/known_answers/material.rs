@@ -50,7 +50,7 @@ fn numbers_from_textures_are_those_numbers() {
     expect_grey(measured, expected, 1e-3);
     let measured = under_a_quad(|s| {
         let exponent = texture(s, 30.0);
-        Surface::Phong { diffuse: grey(0.3), specular: grey(0.6), exponent }
+        Surface::phong(grey(0.3), grey(0.6), exponent)
     });
     expect_grey(measured, expected_under_a_quad(phong(0.3, 0.6, 30.0)), 1e-3);
 }
@@ -69,12 +69,11 @@ fn in_the_sky(make: impl FnOnce(&mut Scene) -> Surface) -> [f64; 3] {
 fn paper_scatters_to_both_sides() {
     let paper = |s: &mut Scene| {
         let transmittance = Value::Texture(paper(s, 0.6));
-        Surface::DiffuseTransmission { reflectance: grey(0.3), transmittance }
+        Surface::diffuse_transmission(grey(0.3), transmittance)
     };
     // In a sky of 1, all that is scattered is seen, and where it would be more than all, all
     assert!((in_the_sky(paper)[0] - 0.9).abs() < 3e-3);
-    let whiter =
-        in_the_sky(|_| Surface::DiffuseTransmission { reflectance: grey(0.9), transmittance: grey(0.9) });
+    let whiter = in_the_sky(|_| Surface::diffuse_transmission(grey(0.9), grey(0.9)));
     assert!((whiter[0] - 1.0).abs() < 3e-3, "{whiter:?}");
     // A lamp behind it: T E / π, and before it: R E / π
     for (height, part) in [(-2.0, 0.6), (2.0, 0.3)] {
@@ -125,9 +124,9 @@ fn an_index_from_textures_is_that_index() {
 #[test]
 fn a_mix_is_the_mean_of_its_parts() {
     let mixed = |s: &mut Scene, amount: Value<f32>| {
-        let a = s.material(Surface::Diffuse { color: grey(0.2) }, None);
+        let a = s.material(Surface::diffuse(grey(0.2)), None);
         let b = s.material(rough(0.25), None);
-        let c = s.material(Surface::Diffuse { color: grey(0.9) }, None);
+        let c = s.material(Surface::diffuse(grey(0.9)), None);
         let inner = s.material(Surface::Mix(Mix { a: b, b: c, amount: Value::Constant(0.3) }), None);
         Surface::Mix(Mix { a, b: inner, amount })
     };

@@ -174,7 +174,7 @@ fn a_moving_lamp_is_found_by_chance_and_counts_whole() {
         let mut s = scene(8, 8, 256);
         s.render.max_depth = 30;
         let emission = Some(Emission { radiance: grey(1.0), two_sided: true });
-        let m = s.material(Surface::Diffuse { color: grey(0.5) }, emission);
+        let m = s.material(Surface::diffuse(grey(0.5)), emission);
         let close = Affine3A::from_scale_rotation_translation(
             Vec3::new(1.2, 0.9, 1.1),
             Quat::from_rotation_y(0.7),

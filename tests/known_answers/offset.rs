@@ -128,7 +128,7 @@ fn furnaces_small_and_large() {
         s.render.max_depth = 20;
         s.camera = look(Vec3::new(0.2, -0.1, 0.5) * scale, Vec3::new(0.0, 0.1, -0.3) * scale, 90.0);
         let emission = Some(Emission { radiance: grey(1.0), two_sided: false });
-        let m = s.material(Surface::Diffuse { color: grey(0.5) }, emission);
+        let m = s.material(Surface::diffuse(grey(0.5)), emission);
         let walls = box_mesh(Vec3::new(-1.0, -0.7, -2.0) * scale, Vec3::new(1.5, 0.9, 1.0) * scale, true);
         let mesh = s.meshes.add("box", walls);
         s.place(mesh, m, Affine3A::IDENTITY);

@@ -12,10 +12,8 @@ fn max_depth_counts_scattering_events() {
     for (depth, expected) in [(0, 1.0), (1, 1.5), (2, 1.75), (3, 1.875)] {
         let mut s = scene(8, 8, 256);
         s.render.max_depth = depth;
-        let m = s.material(
-            Surface::Diffuse { color: grey(0.5) },
-            Some(Emission { radiance: grey(1.0), two_sided: false }),
-        );
+        let m =
+            s.material(Surface::diffuse(grey(0.5)), Some(Emission { radiance: grey(1.0), two_sided: false }));
         let mesh = s.meshes.add("box", box_mesh(Vec3::splat(-1.0), Vec3::splat(1.0), true));
         s.place(mesh, m, Affine3A::IDENTITY);
         let p = render(&s);
@@ -44,10 +42,8 @@ fn diffuse_bounces_count_what_is_not_mirror_or_glass() {
     for (bounces, expected) in [(0, 1.5), (1, 1.75), (2, 1.875)] {
         let mut s = scene(8, 8, 1024);
         (s.render.max_depth, s.render.diffuse_bounces) = (50, Some(bounces));
-        let m = s.material(
-            Surface::Diffuse { color: grey(0.5) },
-            Some(Emission { radiance: grey(1.0), two_sided: true }),
-        );
+        let m =
+            s.material(Surface::diffuse(grey(0.5)), Some(Emission { radiance: grey(1.0), two_sided: true }));
         s.sphere(Vec3::new(0.2, 0.1, 0.3), 2.0, m);
         expect_grey(mean(&render(&s)), expected, 0.0);
     }

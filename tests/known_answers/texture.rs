@@ -324,11 +324,8 @@ fn three_uses_of_the_colour() {
         let texture = Value::Texture(s.picture(image(), |_| {}));
         let m = match use_of {
             0 => s.unlit(texture),
-            1 => s.material(Surface::Diffuse { color: texture }, None),
-            _ => s.material(
-                Surface::Phong { diffuse: texture, specular: texture, exponent: Value::Constant(0.0) },
-                None,
-            ),
+            1 => s.material(Surface::diffuse(texture), None),
+            _ => s.material(Surface::phong(texture, texture, Value::Constant(0.0)), None),
         };
         s.camera = look(Vec3::new(0.0, 2.0, 0.0), Vec3::ZERO, 1.0);
         s.floor(m);

@@ -3,8 +3,9 @@
 use crate::common::chi2;
 use crate::common::lights::{check, expect_solid_angle, light, samples, sphere};
 use crate::common::twins::math::{cross, dot, length, normalize, sub, wide};
-use crate::common::twins::sampling::{sphere_inverse, turn, turns_apart};
-use dapple::layout::{LIGHT_DISTANT, LIGHT_POINT, LIGHT_SPOT, Light};
+use crate::common::twins::sampling::{disk_inverse, sphere_inverse, turn, turns_apart};
+use dapple::layout::{LIGHT_POINT, LIGHT_PUNCTUAL, Light};
+use dapple::scene::{PUNCTUAL_LIGHTS, Punctual, PunctualKind};
 use std::f64::consts::{PI, TAU};
 
 const COUNT: usize = 100_000;
@@ -143,6 +144,52 @@ fn solid_angle_of(holds: impl Fn([f64; 3]) -> bool) -> f64 {
     4.0 * PI * (0..n * n).filter(|&i| holds(direction(i))).count() as f64 / (n * n) as f64
 }
 
+/// The number of a light of the table.
+fn punctual(name: &str) -> u32 {
+    LIGHT_PUNCTUAL + PunctualKind::named(name).unwrap().index() as u32
+}
+
+/// What `shines` of a row says is the mean of what its verb sends out around the axis.
+#[test]
+fn rows_shine_as_they_say() {
+    const TURNS: u32 = 16;
+    for row in PUNCTUAL_LIGHTS.iter().filter(|row| row.shines.is_some()) {
+        let numbers = [0, 1, 2, 3].map(|i| row.numbers.get(i).map_or(0.0, |number| number.default));
+        let of = Punctual { kind: row, position: glam::Vec3::ZERO, numbers };
+        let [a, b, c, d] = numbers;
+        let axes = Light { edge_u: [0.0, 0.0, -1.0], edge_v: [0.0, 1.0, 0.0], ..light(punctual(row.name)) };
+        let light = Light { a, b, uv0: [c, d], ..axes };
+        for degrees in (0..=180).step_by(4) {
+            let (sine, cosine) = f64::from(degrees).to_radians().sin_cos();
+            let sent = |turn: u32| {
+                let (y, x) = (TAU * f64::from(turn) / f64::from(TURNS)).sin_cos();
+                let from = [sine * x, sine * y, -cosine].map(|c| (2.0 * c) as f32);
+                let all = samples(&light, from, 64);
+                4.0 * all.iter().map(|s| s.radiance / s.pdf.max(1e-9)).sum::<f64>() / (3.0 * all.len() as f64)
+            };
+            let mean = (0..TURNS).map(sent).sum::<f64>() / f64::from(TURNS);
+            let said = of.shines(cosine).unwrap_or(f64::NAN);
+            assert!((mean - said).abs() < 1e-4, "{} at {degrees}°: {mean}, not {said}", row.name);
+        }
+    }
+}
+
+/// A disk in the sky is where it should be, and gives a surface that faces it its irradiance.
+#[test]
+fn distant_light_from_a_disk() {
+    let half = 10_f64.to_radians();
+    let disk =
+        Light { edge_u: [0.0, -1.0, 0.0], edge_v: [0.0, 0.0, -1.0], a: 20.0, ..light(punctual("distant")) };
+    for s in samples(&disk, [5.0, 6.0, 7.0], 4096) {
+        let sine = s.wi[0].hypot(s.wi[2]) / half.sin();
+        assert!(sine < 1.0 + 1e-6 && (length(s.wi) - 1.0).abs() < 1e-6 && s.pdf == 1.0);
+        assert!((s.radiance * s.wi[1] - 3.0).abs() < 1e-5);
+        let [x, y] = disk_inverse(s.wi[0] / half.sin(), -s.wi[2] / half.sin());
+        let off = (x - s.u01[0]).abs().max((y - s.u01[1]).abs());
+        assert!(off < 1e-5, "{:?} is off by {off}", s.u01);
+    }
+}
+
 #[test]
 fn lights_without_extent() {
     let point = Light { position: [0.0, 2.0, 0.0], ..light(LIGHT_POINT) };
@@ -151,24 +198,25 @@ fn lights_without_extent() {
         assert_eq!(s.radiance, 0.75, "intensity / d²");
     }
     assert!(samples(&point, [0.0, 2.0, 0.0], 8).iter().all(|s| s.pdf == 0.0));
-    let cos = |degrees: f64| degrees.to_radians().cos() as f32;
+    let cos = |degrees: f64| degrees.to_radians().cos();
     let spot = Light {
         position: [0.0, 1.0, 0.0],
         edge_u: [0.0, -1.0, 0.0],
-        a: cos(20.0),
-        b: cos(30.0),
-        ..light(LIGHT_SPOT)
+        // Half-angle of the cone, and what of it is soft
+        a: 30.0,
+        b: 10.0,
+        ..light(punctual("spot"))
     };
     for (degrees, share) in [(0.0, 1.0), (19.9, 1.0), (30.1, 0.0), (60.0, 0.0), (25.0, f64::NAN)] {
         let x = f64::to_radians(degrees).tan();
         for s in samples(&spot, [x as f32, 0.0, 0.0], 8) {
-            let t = (f64::cos(f64::to_radians(degrees)) - f64::from(spot.b)) / f64::from(spot.a - spot.b);
+            let t = (cos(degrees) - cos(30.0)) / (cos(20.0) - cos(30.0));
             let share = if share.is_nan() { t * t * (3.0 - 2.0 * t) } else { share };
             let expected = 3.0 * share / (1.0 + x * x);
             assert!((s.radiance - expected).abs() < 1e-4, "{degrees}°: {} not {expected}", s.radiance);
         }
     }
-    let distant = Light { edge_u: [0.6, -0.8, 0.0], ..light(LIGHT_DISTANT) };
+    let distant = Light { edge_u: [0.6, -0.8, 0.0], ..light(punctual("distant")) };
     for s in samples(&distant, [5.0, 6.0, 7.0], 8) {
         assert!(length(sub(s.wi, [-0.6, 0.8, 0.0])) < 1e-6 && s.radiance == 3.0 && s.pdf == 1.0);
     }

@@ -4,10 +4,8 @@ use crate::common::chi2;
 use crate::common::directions::{CELLS_PHI, CELLS_Z, cell_integrals, cell_of, midpoints};
 use crate::common::probe::{Probe, Word, as_doubles, floats, three, vector};
 use crate::common::random::Random;
-use dapple::layout::{
-    Backend, DIELECTRIC_SOLID, InterfaceInput, MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE,
-    MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_PHONG,
-};
+use dapple::layout::{Backend, DIELECTRIC_SOLID, InterfaceInput, MATERIAL_BSDFS, MATERIAL_DIELECTRIC};
+use dapple::scene::BsdfKind;
 
 /// A BSDF that is tested.
 #[derive(Clone, Copy, Default)]
@@ -16,7 +14,7 @@ pub struct Lobe {
     pub kind: u32,
     pub mode: u32,
     pub ior: f32,
-    pub exponent: f32,
+    pub numbers: [f32; 2],
     pub color: [f32; 3],
     pub specular: [f32; 3],
     pub k: [f32; 3],
@@ -45,19 +43,26 @@ impl Tables {
     };
 }
 
+/// The number of a BSDF of the table.
+pub fn bsdf(name: &str) -> u32 {
+    MATERIAL_BSDFS + BsdfKind::named(name).unwrap().index() as u32
+}
+
 impl Lobe {
     /// Whether light can go through.
     pub fn is_clear(&self) -> bool {
-        matches!(self.kind, MATERIAL_DIELECTRIC | MATERIAL_DIFFUSE_TRANSMISSION) || self.transmission > 0.0
+        // Phong's lobe may go below the surface, where it is absorbed
+        let row = self.kind >= MATERIAL_BSDFS && self.kind != bsdf("phong");
+        self.kind == MATERIAL_DIELECTRIC || row || self.transmission > 0.0
     }
 
     fn header(&self, wo: [f32; 3]) -> Vec<Word> {
         vec![
-            [self.kind, self.mode, self.ior.to_bits(), self.exponent.to_bits()],
+            [self.kind, self.mode, self.ior.to_bits(), 0],
             vector(self.color),
             vector(self.specular),
             vector(self.k),
-            floats(self.alpha[0], self.alpha[1], 0.0, 0.0),
+            floats(self.alpha[0], self.alpha[1], self.numbers[0], self.numbers[1]),
             floats(self.metallic, self.weight, self.transmission, 0.0),
             floats(self.coat[0], self.coat[1], self.sheen_roughness, 0.0),
             vector(self.sheen),
@@ -101,7 +106,7 @@ const BSDF: &str = "
         vec3 mixed = vector(5u);
         vec3 coat = vector(6u);
         InterfaceInput of = interface_input_unpack(fetch_points(9u));
-        return Bsdf(a.x, a.y, vector(1u), vector(2u), vector(3u), uintBitsToFloat(a.z), uintBitsToFloat(a.w), vector(4u).xy,
+        return Bsdf(a.x, a.y, vector(1u), vector(2u), vector(3u), uintBitsToFloat(a.z), uintBitsToFloat(fetch_points(4u).zw), vector(4u).xy,
                     mixed.x, mixed.y, mixed.z, coat.x, coat.yy, vector(7u), coat.z, of.through_table, of.inner_table, of.through_mean,
                     vec3(uintBitsToFloat(a.z)), vec3(1.0 / 3.0), false);
     }
@@ -245,7 +250,8 @@ pub fn check_samples(lobes: &[Lobe]) {
             let density = over_the_sphere(lobe, wo);
             let everywhere: f64 = cell_integrals(density.iter().map(|d| d.0)).iter().sum();
             // Facets throw a part of the light under the surface, where their density is 0
-            let least = if matches!(lobe.kind, MATERIAL_DIFFUSE | MATERIAL_PHONG) { 0.998 } else { 0.0 };
+            let whole = [bsdf("diffuse"), bsdf("phong")].contains(&lobe.kind);
+            let least = if whole { 0.998 } else { 0.0 };
             assert!((least..1.002).contains(&everywhere), "{place}: the density integrates to {everywhere}");
             let kept = density
                 .iter()
@@ -273,7 +279,9 @@ pub fn check_reciprocity(lobes: &[Lobe]) {
             for ((_, there, back), wi) in over_the_sphere(lobe, wo).into_iter().zip(midpoints()) {
                 // Radiance in glass is η² times as dense (Veach 1997, section 5.2): from the side of index 1, f is
                 // 1 / η² of what it is the other way round
-                let through = lobe.is_clear() && lobe.mode == DIELECTRIC_SOLID && wi[2] * wo[2] < 0.0;
+                let has_inside =
+                    lobe.kind < MATERIAL_BSDFS && lobe.is_clear() && lobe.mode == DIELECTRIC_SOLID;
+                let through = has_inside && wi[2] * wo[2] < 0.0;
                 let index = f64::from(lobe.ior);
                 let scale = match (through, wo[2] > 0.0) {
                     (false, _) => 1.0,

@@ -1,5 +1,6 @@
 //! GLSL functions, one by one, against their twins in Rust or what they must be, through `shaders/probe.comp`.
 
+#![allow(clippy::unwrap_used)] // Helpers of tests are tests too.
 #[path = "../common/mod.rs"]
 mod common;
 

@@ -1,30 +1,62 @@
 //! `shaders/material`: every lobe against its own density, reciprocity and energy.
 
-use super::lobe::{Lobe, check_reciprocity, check_samples, directions, samples};
+use super::lobe::{Lobe, bsdf, check_reciprocity, check_samples, directions, samples};
 use crate::common::twins::fresnel;
 use crate::common::twins::math::{cross, dot, normalize};
 use crate::common::twins::sampling::{DISK_ERROR, disk_inverse, turn, turns_apart};
 use dapple::layout::{
     DIELECTRIC_THIN, FRESNEL_EXACT, FRESNEL_INDEX, FRESNEL_NONE, FRESNEL_SCHLICK, MATERIAL_CONDUCTOR,
-    MATERIAL_DIELECTRIC, MATERIAL_DIFFUSE, MATERIAL_DIFFUSE_TRANSMISSION, MATERIAL_PHONG,
+    MATERIAL_DIELECTRIC,
 };
+use dapple::scene::{BSDFS, InputNumber};
+
+/// Every BSDF of the table with its defaults, and as bright as it can be with the least and the most of its numbers.
+fn rows() -> impl Iterator<Item = Lobe> {
+    BSDFS.iter().flat_map(|row| {
+        let color = |i: usize| row.colors.get(i).map_or(0.0, |color| color.default);
+        let number = |of: fn(&InputNumber) -> f32| {
+            [0, 1].map(|i| row.numbers.get(i).map_or(0.0, |number| of(number).min(100.0)))
+        };
+        let lobe = |name, bright: f32, numbers| Lobe {
+            name,
+            kind: bsdf(row.name),
+            mode: DIELECTRIC_THIN,
+            color: [color(0) * bright; 3],
+            specular: [color(1) * bright; 3],
+            numbers,
+            ..Lobe::default()
+        };
+        let bright = 1.0 / (color(0) + color(1));
+        [
+            lobe(row.name, 1.0, number(|number| number.default)),
+            lobe(row.name, bright, number(|number| number.least)),
+            lobe(row.name, bright, number(|number| number.most)),
+        ]
+    })
+}
 
 fn lobes() -> Vec<Lobe> {
     let white = [1.0; 3];
     let phong =
-        Lobe { kind: MATERIAL_PHONG, color: [0.3, 0.5, 0.2], specular: [0.7, 0.5, 0.4], ..Lobe::default() };
+        Lobe { kind: bsdf("phong"), color: [0.3, 0.5, 0.2], specular: [0.7, 0.5, 0.4], ..Lobe::default() };
     let metal = Lobe { kind: MATERIAL_CONDUCTOR, mode: FRESNEL_NONE, color: white, ..Lobe::default() };
     let glass = Lobe { kind: MATERIAL_DIELECTRIC, ior: 1.5, ..Lobe::default() };
-    let paper = Lobe { kind: MATERIAL_DIFFUSE_TRANSMISSION, mode: DIELECTRIC_THIN, ..Lobe::default() };
-    vec![
+    let paper = Lobe { kind: bsdf("diffuse_transmission"), mode: DIELECTRIC_THIN, ..Lobe::default() };
+    let own = vec![
         Lobe { name: "paper", color: [0.2, 0.5, 0.1], specular: [0.6, 0.3, 0.9], ..paper },
         Lobe { name: "paper that only lets through", specular: white, ..paper },
-        Lobe { name: "diffuse", kind: MATERIAL_DIFFUSE, color: [0.2, 0.5, 1.0], ..Lobe::default() },
-        Lobe { name: "phong 0", exponent: 0.0, ..phong },
-        Lobe { name: "phong 1", exponent: 1.0, ..phong },
-        Lobe { name: "phong 7.5", exponent: 7.5, ..phong },
-        Lobe { name: "phong 100", exponent: 100.0, ..phong },
-        Lobe { name: "phong without diffuse", exponent: 20.0, color: [0.0; 3], specular: white, ..phong },
+        Lobe { name: "diffuse", kind: bsdf("diffuse"), color: [0.2, 0.5, 1.0], ..Lobe::default() },
+        Lobe { name: "phong 0", numbers: [0.0; 2], ..phong },
+        Lobe { name: "phong 1", numbers: [1.0, 0.0], ..phong },
+        Lobe { name: "phong 7.5", numbers: [7.5, 0.0], ..phong },
+        Lobe { name: "phong 100", numbers: [100.0, 0.0], ..phong },
+        Lobe {
+            name: "phong without diffuse",
+            numbers: [20.0, 0.0],
+            color: [0.0; 3],
+            specular: white,
+            ..phong
+        },
         Lobe { name: "metal 0.2", alpha: [0.2, 0.2], ..metal },
         Lobe { name: "metal 1", alpha: [1.0, 1.0], ..metal },
         Lobe {
@@ -46,7 +78,8 @@ fn lobes() -> Vec<Lobe> {
         Lobe { name: "glass 0.3", alpha: [0.3, 0.3], ..glass },
         Lobe { name: "glass 0.25 × 0.7", alpha: [0.25, 0.7], ..glass },
         Lobe { name: "bubble 0.4", alpha: [0.4, 0.4], ior: 0.75, ..glass },
-    ]
+    ];
+    own.into_iter().chain(rows()).collect()
 }
 
 #[test]
@@ -56,17 +89,17 @@ fn samples_follow_the_density_and_weights_are_its_quotient() {
 
 #[test]
 fn lobes_go_back_to_the_square() {
-    let diffuse = Lobe { name: "diffuse", kind: MATERIAL_DIFFUSE, color: [0.5; 3], ..Lobe::default() };
+    let diffuse = Lobe { name: "diffuse", kind: bsdf("diffuse"), color: [0.5; 3], ..Lobe::default() };
     let glossy = |name, exponent| {
-        let specular = [1.0; 3];
-        Lobe { name, kind: MATERIAL_PHONG, specular, exponent, ..Lobe::default() }
+        let (specular, numbers) = ([1.0; 3], [exponent, 0.0]);
+        Lobe { name, kind: bsdf("phong"), specular, numbers, ..Lobe::default() }
     };
     for lobe in [diffuse, glossy("phong 1", 1.0), glossy("phong 20", 20.0), glossy("phong 300", 300.0)] {
         // A cosine is known to a rounding, which its power multiplies
-        let tolerance = if lobe.kind == MATERIAL_DIFFUSE {
+        let tolerance = if lobe.kind == bsdf("diffuse") {
             DISK_ERROR
         } else {
-            1e-6 + 3e-7 * (f64::from(lobe.exponent) + 1.0)
+            1e-6 + 3e-7 * (f64::from(lobe.numbers[0]) + 1.0)
         };
         for wo in directions() {
             let mirror = [-wo[0], -wo[1], wo[2]].map(f64::from);
@@ -75,7 +108,7 @@ fn lobes_go_back_to_the_square() {
             let (mut zero, mut kept) = (None, 0);
             for s in samples(&lobe, wo, 10_000, 5).iter().filter(|s| s.weight != [0.0; 3]) {
                 kept += 1;
-                let off = if lobe.kind == MATERIAL_DIFFUSE {
+                let off = if lobe.kind == bsdf("diffuse") {
                     let back = disk_inverse(s.wi[0], s.wi[1]);
                     (back[0] - s.u01[0]).abs().max((back[1] - s.u01[1]).abs())
                 } else {
@@ -83,7 +116,7 @@ fn lobes_go_back_to_the_square() {
                     let angle = turn(dot(s.wi, side), dot(s.wi, other));
                     // The zero of the angle is anywhere
                     let zero = *zero.get_or_insert((angle - s.u01[1]).rem_euclid(1.0));
-                    let back = cos.powf(f64::from(lobe.exponent) + 1.0);
+                    let back = cos.powf(f64::from(lobe.numbers[0]) + 1.0);
                     let sin = (1.0 - cos * cos).max(0.0).sqrt();
                     (back - s.u01[0]).abs().max(turns_apart(angle, s.u01[1] + zero) * sin)
                 };

@@ -1,10 +1,12 @@
 //! `shaders/material/principled.glsl`: what every lobe must do, and the materials that the model must be at its ends.
 
-use super::lobe::{Lobe, Tables, albedo, check_reciprocity, check_samples, directions, over_the_sphere};
+use super::lobe::{
+    Lobe, Tables, albedo, bsdf, check_reciprocity, check_samples, directions, over_the_sphere,
+};
 use crate::common::directions::midpoints;
 use dapple::layout::{
     DIELECTRIC_SOLID, DIELECTRIC_THIN, FRESNEL_SCHLICK, MATERIAL_CONDUCTOR, MATERIAL_DIELECTRIC,
-    MATERIAL_DIFFUSE, MATERIAL_PRINCIPLED,
+    MATERIAL_PRINCIPLED,
 };
 
 /// A white dielectric without anything on top.
@@ -13,7 +15,7 @@ const PLAIN: Lobe = Lobe {
     kind: MATERIAL_PRINCIPLED,
     mode: DIELECTRIC_THIN,
     ior: 1.5,
-    exponent: 0.0,
+    numbers: [0.0; 2],
     color: [1.0; 3],
     specular: [1.0; 3],
     k: [0.0; 3],
@@ -119,7 +121,7 @@ fn the_ends_are_diffuse_metal_and_glass() {
     let pairs = [
         (
             Lobe { weight: 0.0, alpha: [1.0; 2], color, ..PLAIN },
-            Lobe { kind: MATERIAL_DIFFUSE, color, ..Lobe::default() },
+            Lobe { kind: bsdf("diffuse"), color, ..Lobe::default() },
         ),
         (
             Lobe { metallic: 1.0, alpha, color, ..PLAIN },

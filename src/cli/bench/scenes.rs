@@ -111,7 +111,7 @@ fn room(max_depth: u32) -> Scene {
     let lamp = scene.materials.add(
         "lamp",
         Material::new(
-            Surface::Diffuse { color: Value::Constant(Vec3::ZERO) },
+            Surface::diffuse(Value::Constant(Vec3::ZERO)),
             Some(Emission { radiance: Value::Constant(Vec3::new(12.0, 12.0, 11.0)), two_sided: false }),
         ),
     );
@@ -127,6 +127,6 @@ fn shape(kind: ShapeKind, material: Handle<Material>) -> Shape {
 }
 
 fn diffuse(scene: &mut Scene, name: &str, color: Vec3) -> Handle<Material> {
-    let surface = Surface::Diffuse { color: Value::Constant(color) };
+    let surface = Surface::diffuse(Value::Constant(color));
     scene.materials.add(name, Material::new(surface, None))
 }

@@ -49,7 +49,7 @@ fn read(json: &Json<'_>, world: &DAffine3) -> Result<Light> {
             }
             let (cone_angle, falloff_angle) = (outer.to_degrees(), (outer - inner).to_degrees());
             let falloff_angle = falloff_angle.min(cone_angle);
-            let kind = LightKind::Spot { position, cone_angle, falloff_angle };
+            let kind = LightKind::spot(position, cone_angle, falloff_angle);
             Light::new(kind, Value::Constant(power)).along(direction)
         }
         _ => return Err(kind.error("a light is \"directional\", \"point\" or \"spot\"")),

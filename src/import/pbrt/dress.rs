@@ -65,7 +65,7 @@ fn key(base: Handle<Material>, emission: Option<&Emission>, looks: &Looks) -> Ke
 
 /// A diffuse material.
 pub(super) fn diffuse(reflectance: f32) -> Material {
-    Material::new(Surface::Diffuse { color: Value::Constant(Vec3::splat(reflectance)) }, None)
+    Material::new(Surface::diffuse(Value::Constant(Vec3::splat(reflectance))), None)
 }
 
 impl Reader<'_> {

@@ -78,7 +78,7 @@ impl Reader<'_> {
         let (at, target) = (from.point_or("from", Vec3::ZERO)?, from.point_or("to", Vec3::Z)?);
         let direction = self.direction(from, target - at, "the spot light aims at its own position")?;
         let position = self.in_world(at).as_vec3();
-        let kind = LightKind::Spot { position: self.finite(from, position)?, cone_angle, falloff_angle };
+        let kind = LightKind::spot(self.finite(from, position)?, cone_angle, falloff_angle);
         Ok(Light::new(kind, Value::Constant(self.finite(from, intensity)?)).along(direction))
     }
 

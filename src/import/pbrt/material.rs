@@ -78,7 +78,7 @@ impl Reader<'_> {
 
     fn surface(&mut self, kind: &str, from: &Parameters) -> Result<Material> {
         let surface = match kind {
-            "diffuse" => Surface::Diffuse { color: self.albedo(from, "reflectance", 0.5)? },
+            "diffuse" => Surface::diffuse(self.albedo(from, "reflectance", 0.5)?),
             "conductor" => {
                 let widths = ["uroughness", "vroughness", "roughness"];
                 Surface::Conductor(self.conductor(from, ["eta", "k", "reflectance"], widths)?)
@@ -93,7 +93,7 @@ impl Reader<'_> {
                 let scale = from.float_or("scale", 1.0, Limits::AtLeast(0.0))?;
                 let [reflectance, transmittance] = ["reflectance", "transmittance"]
                     .map(|name| self.albedo(from, name, 0.25).map(|albedo| self.scaled(albedo, scale)));
-                Surface::DiffuseTransmission { reflectance: reflectance?, transmittance: transmittance? }
+                Surface::diffuse_transmission(reflectance?, transmittance?)
             }
             "hair" | "measured" | "subsurface" => return Ok(self.replaced(kind, from)),
             _ => return Err(self.unknown("Material", kind, from, &KINDS)),

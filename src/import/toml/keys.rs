@@ -4,16 +4,33 @@ mod materials;
 mod shapes;
 mod textures;
 
+use crate::scene::PUNCTUAL_LIGHTS;
+use std::sync::LazyLock;
+
 pub(super) use materials::MATERIAL;
 pub(super) use shapes::SHAPE;
 pub(super) use textures::{MAPPING, TEXTURE, TEXTURE_VALUE};
+
+/// Kinds, and the keys that each adds.
+type Rows = &'static [(&'static str, &'static [&'static str])];
 
 /// Keys of an object that has a `kind`.
 pub(super) struct Kinds {
     /// Keys of every kind.
     pub common: &'static [&'static str],
-    /// The kinds and the keys that each adds.
-    pub kinds: &'static [(&'static str, &'static [&'static str])],
+    /// The kinds.
+    pub kinds: Rows,
+}
+
+impl Kinds {
+    /// Kinds that are put together once, for as long as the program runs.
+    fn listed(
+        common: &'static [&'static str],
+        kinds: impl Iterator<Item = (&'static str, Vec<&'static str>)>,
+    ) -> Self {
+        let kinds: Vec<_> = kinds.map(|(kind, keys)| (kind, &*keys.leak())).collect();
+        Self { common, kinds: kinds.leak() }
+    }
 }
 
 /// Keys and tables at the top of a file.
@@ -147,46 +164,31 @@ pub(super) const PART: &[&str] = &["name", "triangles", "material"];
 /// Steps of a `transform`.
 pub(super) const STEP: &[&str] = &["translate", "rotate", "angle", "scale", "matrix"];
 
-const SPOT: &[&str] = &[
-    "position",
-    "target",
-    "direction",
-    "up",
-    "transform",
-    "intensity",
-    "scale",
-    "power",
-    "cone_angle",
-    "falloff_angle",
-];
-const PROJECTION: &[&str] = &[
-    "position",
-    "target",
-    "direction",
-    "up",
-    "transform",
-    "intensity",
-    "scale",
-    "power",
-    "fov",
-    "fov_axis",
-    "aspect",
-];
+/// Keys of a light of the table that has a place.
+const PLACED: &[&str] =
+    &["position", "target", "direction", "up", "transform", "intensity", "scale", "power"];
+/// Keys of one that is infinitely far away.
+const FAR: &[&str] = &["direction", "from", "up", "transform", "irradiance", "scale"];
 
-pub(super) const LIGHT: Kinds = Kinds {
-    common: &["kind"],
-    kinds: &[
-        ("point", &["position", "intensity", "scale", "power", "mapping", "rotate", "transform"]),
-        ("spot", SPOT),
-        ("projection", PROJECTION),
-        ("distant", &["direction", "from", "up", "transform", "irradiance", "scale"]),
-        ("sphere", shapes::SPHERE_LIGHT),
-        ("disk", shapes::DISK_LIGHT),
-        ("quad", shapes::QUAD_LIGHT),
-        ("cylinder", shapes::CYLINDER_LIGHT),
-        ("patch", shapes::PATCH_LIGHT),
-    ],
-};
+pub(super) static LIGHT: LazyLock<Kinds> = LazyLock::new(|| {
+    let table = PUNCTUAL_LIGHTS.iter().map(|kind| {
+        let own = kind.numbers.iter().map(|number| number.key);
+        let shared = if kind.shines.is_some() { PLACED } else { FAR };
+        (kind.name, shared.iter().copied().chain(own).collect())
+    });
+    let frustum = [PLACED, &["fov", "fov_axis", "aspect"]].concat();
+    let point: &[&str] = &["position", "intensity", "scale", "power", "mapping", "rotate", "transform"];
+    let others = [
+        ("point", point.to_vec()),
+        ("projection", frustum),
+        ("sphere", shapes::SPHERE_LIGHT.to_vec()),
+        ("disk", shapes::DISK_LIGHT.to_vec()),
+        ("quad", shapes::QUAD_LIGHT.to_vec()),
+        ("cylinder", shapes::CYLINDER_LIGHT.to_vec()),
+        ("patch", shapes::PATCH_LIGHT.to_vec()),
+    ];
+    Kinds::listed(&["kind"], table.chain(others))
+});
 
 pub(super) const ENVIRONMENT: &[&str] = &["color", "texture", "mapping", "scale", "rotate", "transform"];
 

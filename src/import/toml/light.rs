@@ -11,8 +11,8 @@ use super::value::color;
 use super::view::View;
 use crate::Result;
 use crate::scene::{
-    DirectionMapping, Emission, Environment, FovAxis, Handle, Light, LightKind, Material, Shape, Strength,
-    Surface, Texture, Value, Wrap, facing, facing_upright,
+    DirectionMapping, Emission, Environment, FovAxis, Handle, Light, LightKind, Material, Punctual,
+    PunctualKind, Shape, Strength, Surface, Texture, Value, Wrap, facing, facing_upright,
 };
 use glam::{Mat3, Vec3};
 
@@ -26,8 +26,8 @@ impl Reader<'_> {
     pub fn light(&mut self, index: usize, node: &Node) -> Result<()> {
         let name = format!("light {index}");
         let (view, kind) = View::of_kind(self.sources, node, name.clone(), &LIGHT)?;
-        let key = if kind == "distant" { "irradiance" } else { "intensity" };
-        let intensity = || self.color(view.need(key)?, Limits::AtLeast(0.0));
+        let strong = |key: &str| self.color(view.need(key)?, Limits::AtLeast(0.0));
+        let intensity = || strong("intensity");
         let (kind, intensity, world_from_light) = match kind {
             "point" => {
                 let mapping = view.choice_or("mapping", DirectionMapping::default(), &MAPPINGS)?;
@@ -35,17 +35,19 @@ impl Reader<'_> {
                 let intensity = intensity()?;
                 (LightKind::Point { position, mapping }, self.on_sphere(intensity, mapping), rotation(&view)?)
             }
-            "spot" => {
-                let (position, frame) = aimed(&view)?;
-                (spot(&view, position)?, intensity()?, frame)
-            }
             "projection" => {
                 let (position, frame) = aimed(&view)?;
                 let intensity = intensity()?;
                 (self.projector(&view, position, &intensity)?, intensity, frame)
             }
-            "distant" => (LightKind::Distant, intensity()?, from_afar(&view)?),
-            _ => return self.area_light(&view, kind, name),
+            _ => match PunctualKind::named(kind) {
+                Some(row) if row.shines.is_some() => {
+                    let (position, frame) = aimed(&view)?;
+                    (punctual(&view, row, position)?, intensity()?, frame)
+                }
+                Some(row) => (punctual(&view, row, Vec3::ZERO)?, strong("irradiance")?, from_afar(&view)?),
+                None => return self.area_light(&view, kind, name),
+            },
         };
         let strength = strength(&view)?;
         self.scene.lights.push(Light { kind, intensity, strength, world_from_light });
@@ -93,7 +95,7 @@ impl Reader<'_> {
         let emission = Some(Emission { radiance, two_sided: view.bool_or("two_sided", false)? });
         let kind = geometry(view, kind)?;
         let (world_from_object, at_close) = placed(view)?;
-        let surface = Surface::Diffuse { color: Value::Constant(Vec3::ZERO) };
+        let surface = Surface::diffuse(Value::Constant(Vec3::ZERO));
         let material = self.scene.materials.add(name.as_str(), Material::new(surface, emission));
         self.scene.shapes.push(Shape { name, kind, material, world_from_object, at_close });
         Ok(())
@@ -192,8 +194,11 @@ fn upright(view: &View<'_>, direction: Vec3) -> Result<Mat3> {
     }
 }
 
-fn spot(view: &View<'_>, position: Vec3) -> Result<LightKind> {
-    let cone_angle = view.f32_or("cone_angle", 30.0, Limits::Between(0.0, 180.0))?;
-    let falloff_angle = view.f32_or("falloff_angle", cone_angle.min(5.0), Limits::From(0.0, cone_angle))?;
-    Ok(LightKind::Spot { position, cone_angle, falloff_angle })
+/// A light of the table.
+fn punctual(view: &View<'_>, kind: &'static PunctualKind, position: Vec3) -> Result<LightKind> {
+    let mut numbers = [0.0; PunctualKind::MOST_NUMBERS];
+    for (number, of) in numbers.iter_mut().zip(kind.numbers) {
+        *number = view.f32_or(of.key, of.default, Limits::From(of.least, of.most))?;
+    }
+    Ok(LightKind::Punctual(Punctual { kind, position, numbers }))
 }

@@ -3,11 +3,11 @@
 use super::document::Entry;
 use super::keys::MATERIAL;
 use super::reader::Reader;
-use super::text::{Limits, number, shown};
+use super::text::{Limits, number as number_text, shown};
 use super::view::{Item, View};
 use crate::scene::{
-    CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Emission, Fresnel, ImageTexture, Interface,
-    Material, Principled, Roughness, Surface, Texture, Value,
+    Bsdf, BsdfKind, CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Emission, Fresnel, ImageTexture,
+    InputColor, InputNumber, Interface, Material, Principled, Roughness, Surface, Texture, Value,
 };
 use crate::{Error, Result};
 use glam::Vec3;
@@ -21,7 +21,7 @@ impl Reader<'_> {
     /// All materials. Mixes may be made of others in any order, so each has its name before any is read.
     pub fn materials(&mut self, entries: &[Entry]) -> Result<()> {
         for entry in entries {
-            let surface = Surface::Diffuse { color: Value::Constant(Vec3::ZERO) };
+            let surface = Surface::diffuse(Value::Constant(Vec3::ZERO));
             let handle = self.scene.materials.add(&entry.key, Material::new(surface, None));
             self.materials.add(&entry.key, entry.spot, handle);
         }
@@ -37,18 +37,6 @@ impl Reader<'_> {
         let (view, kind) = View::of_kind(self.sources, &entry.node, format!("material `{name}`"), &MATERIAL)?;
         let surface = match kind {
             "unlit" => Surface::Unlit { color: self.color(view.need("color")?, Limits::AtLeast(0.0))? },
-            "diffuse_transmission" => {
-                let [reflectance, transmittance] =
-                    self.two_parts(entry, &view, [("color", 0.25), ("transmittance", 0.25)])?;
-                Surface::DiffuseTransmission { reflectance, transmittance }
-            }
-            "phong" => {
-                let [diffuse, specular] =
-                    self.two_parts(entry, &view, [("diffuse", 0.5), ("specular", 0.0)])?;
-                let exponent =
-                    self.number_or(&view, "exponent", 50.0, Limits::From(0.0, Surface::MOST_EXPONENT))?;
-                Surface::Phong { diffuse, specular, exponent }
-            }
             "conductor" => Surface::Conductor(self.conductor(&view)?),
             "dielectric" => Surface::Dielectric(self.dielectric(&view)?),
             "coated_diffuse" => Surface::CoatedDiffuse(CoatedDiffuse {
@@ -65,34 +53,32 @@ impl Reader<'_> {
             })),
             "principled" => Surface::Principled(Box::new(self.principled(&view)?)),
             "mix" => Surface::Mix(self.mix(&view)?),
-            _ => Surface::Diffuse { color: self.color_or(&view, "color", 0.5, REFLECTANCE)? },
+            bsdf => self.bsdf(entry, &view, bsdf)?,
         };
         let emission = self.emission(&view, &entry.key)?;
         let detail = self.detail(&view)?;
         Ok(Material { surface, emission, detail })
     }
 
-    /// Two parts of the light, which together should be 1 at most.
-    fn two_parts(
-        &mut self,
-        entry: &Entry,
-        view: &View<'_>,
-        keys: [(&str, f32); 2],
-    ) -> Result<[Value<Vec3>; 2]> {
-        let [(a, usual_a), (b, usual_b)] = keys;
-        let parts =
-            [self.color_or(view, a, usual_a, REFLECTANCE)?, self.color_or(view, b, usual_b, REFLECTANCE)?];
-        if let [Value::Constant(first), Value::Constant(second)] = parts {
-            let sum = (first + second).max_element();
-            if sum > 1.0 {
-                let (sum, what) = (number(f64::from(sum)), &view.what);
-                self.warn(
-                    entry.spot,
-                    format!("`{a}` + `{b}` reaches {sum} in {what}; it is scaled down to 1"),
-                );
-            }
+    /// A BSDF of the table.
+    fn bsdf(&mut self, entry: &Entry, view: &View<'_>, kind: &str) -> Result<Surface> {
+        let kind = BsdfKind::named(kind).ok_or_else(|| view.error(format!("there is no BSDF `{kind}`")))?;
+        let color = |of: &InputColor| self.color_or(view, of.key, of.default, REFLECTANCE);
+        let colors: Vec<_> = kind.colors.iter().map(color).collect::<Result<_>>()?;
+        let number =
+            |of: &InputNumber| self.number_or(view, of.key, of.default, Limits::From(of.least, of.most));
+        let numbers = kind.numbers.iter().map(number).collect::<Result<_>>()?;
+        let constant = |color: &Value<Vec3>| match color {
+            Value::Constant(color) => Some(*color),
+            Value::Texture(_) => None,
+        };
+        let sum = colors.iter().map(constant).sum::<Option<Vec3>>().map_or(0.0, Vec3::max_element);
+        if sum > 1.0 {
+            let keys: Vec<_> = kind.colors.iter().map(|of| format!("`{}`", of.key)).collect();
+            let (keys, sum, what) = (keys.join(" + "), number_text(f64::from(sum)), &view.what);
+            self.warn(entry.spot, format!("{keys} reaches {sum} in {what}; it is scaled down to 1"));
         }
-        Ok(parts)
+        Ok(Surface::Bsdf(Bsdf { kind, colors, numbers }))
     }
 
     fn color_or(&self, view: &View<'_>, key: &str, default: f32, limits: Limits) -> Result<Value<Vec3>> {

@@ -11,7 +11,7 @@ fn scene(mesh: Mesh, edge: EdgeLimit, direction: DisplacementDirection, height: 
         Displacement { texture, height, offset: 0.0, direction, edge, most_triangles: 300_000 };
     let mesh = Mesh { displacement: Some(displacement), ..mesh };
     let mesh = scene.meshes.add("hills", mesh);
-    let surface = Surface::Diffuse { color: Value::Constant(Vec3::ONE) };
+    let surface = Surface::diffuse(Value::Constant(Vec3::ONE));
     let material = scene.materials.add("grey", Material::new(surface, None));
     let world_from_object = Affine3A::IDENTITY;
     scene.instances.push(Instance {

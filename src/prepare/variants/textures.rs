@@ -35,7 +35,7 @@ pub fn scene(vertex_color: bool, uv1: bool) -> Scene {
     for texture in textures {
         let texture = scene.textures.add("texture", texture);
         let (color, value) = (Value::Texture(texture), Value::Texture(texture));
-        let mut material = Material::new(Surface::Diffuse { color }, None);
+        let mut material = Material::new(Surface::diffuse(color), None);
         material.detail.opacity = Opacity { value, cutoff: None, filter: color };
         material.detail.bump =
             Some(Bump { texture, height: 1.0, derivative: Derivative::Kernel, curvature: true });

@@ -135,15 +135,14 @@ fn lights_shine_along_minus_z_of_their_nodes() {
     let (_, model) = maker.read().unwrap();
     let (position, forward) = (Vec3::Y * 7.0, -Vec3::X);
     assert_eq!(model.lights[0], Light::point(position, Vec3::new(5.0, 2.5, 0.0)));
-    assert_eq!(model.lights[1].kind, crate::scene::LightKind::Distant);
+    assert_eq!(model.lights[1].kind, crate::scene::LightKind::distant(0.0));
     near(-model.lights[1].world_from_light.z_axis, forward);
     assert_eq!(model.lights[1].intensity, crate::scene::Value::Constant(Vec3::splat(3.0)));
     for (light, outer, edge) in
         [(&model.lights[2], 0.5_f32, 0.25_f32), (&model.lights[3], 45_f32.to_radians(), 45_f32.to_radians())]
     {
-        let crate::scene::LightKind::Spot { cone_angle, falloff_angle, .. } = light.kind else {
-            panic!("{light:?}")
-        };
+        let crate::scene::LightKind::Punctual(spot) = light.kind else { panic!("{light:?}") };
+        let [cone_angle, falloff_angle, ..] = spot.numbers;
         near(-light.world_from_light.z_axis, forward);
         assert_eq!(light.intensity, crate::scene::Value::Constant(Vec3::ONE));
         assert!(

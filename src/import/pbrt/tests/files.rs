@@ -50,9 +50,12 @@ fn spectra_come_from_names_lists_and_files() {
             format!("WorldBegin Material \"diffuse\" \"spectrum reflectance\" {value} Shape \"sphere\"");
         let files = [("scene.pbrt", text.as_str()), ("grey.spd", "# nm value\n400 0.25\n700 0.25\n")];
         let (scene, _) = read_files(&files)?;
-        match scene.materials[scene.shapes[0].material].surface {
-            crate::scene::Surface::Diffuse { color: Value::Constant(color) } => Ok::<_, crate::Error>(color),
-            _ => panic!(),
+        let crate::scene::Surface::Bsdf(diffuse) = &scene.materials[scene.shapes[0].material].surface else {
+            panic!();
+        };
+        match diffuse.colors[0] {
+            Value::Constant(color) => Ok::<_, crate::Error>(color),
+            Value::Texture(_) => panic!(),
         }
     };
     assert!(reflectance("[400 0.5 700 0.5]").unwrap().abs_diff_eq(Vec3::splat(0.5), 1e-5));

@@ -170,7 +170,7 @@ fn light_and_opacity_of_shapes_become_those_of_materials() {
         assert_eq!(emission.radiance, Value::Constant(Vec3::new(2.0, 4.0, 6.0)));
         assert!(emission.two_sided);
         let color = Value::Constant(Vec3::new(0.1, 0.2, 0.3));
-        assert_eq!(material(shape).surface, Surface::Diffuse { color });
+        assert_eq!(material(shape).surface, Surface::diffuse(color));
     }
     assert_eq!(material(a).detail.opacity.value, Value::Constant(0.25));
     assert_eq!(material(c).detail.opacity.value, Value::Constant(1.0));

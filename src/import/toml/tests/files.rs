@@ -55,7 +55,7 @@ fn set_changes_the_scene() {
     let (scene, _) = read_set(text, &set).unwrap();
     assert_eq!((scene.render.spp, scene.render.sampler), (17, Sampler::Random));
     assert_eq!((scene.film.width, scene.film.height), (8, 4));
-    let red = Surface::Diffuse { color: Value::Constant(Vec3::X) };
+    let red = Surface::diffuse(Value::Constant(Vec3::X));
     assert_eq!(scene.materials[scene.shapes[0].material].surface, red);
     let Surface::Conductor(metal) = &scene.materials[scene.shapes[1].material].surface else {
         panic!("metal")

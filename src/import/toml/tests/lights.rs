@@ -12,8 +12,7 @@ fn lights_take_every_key() {
     };
     assert_eq!(*point, Light { strength: Strength::Scale(2.0), ..Light::point(Vec3::Y, Vec3::splat(3.0)) });
     let cone = |cone_angle, falloff_angle| {
-        let kind = LightKind::Spot { position: Vec3::Y, cone_angle, falloff_angle };
-        Light::new(kind, Value::Constant(Vec3::ONE))
+        Light::new(LightKind::spot(Vec3::Y, cone_angle, falloff_angle), Value::Constant(Vec3::ONE))
     };
     // Downward, −z is up unless the scene says otherwise
     let frame = facing(-Vec3::Y, Vec3::X).unwrap();
@@ -22,7 +21,8 @@ fn lights_take_every_key() {
     let straight = Light::distant(-Vec3::Y, Vec3::ONE);
     assert_eq!(straight.world_from_light.y_axis, -Vec3::Z);
     assert_eq!(*distant, Light { strength: Strength::Scale(0.5), ..straight.clone() });
-    assert_eq!(*from, Light { world_from_light: frame, ..straight });
+    let sun = Light::new(LightKind::distant(0.5), straight.intensity);
+    assert_eq!(*from, Light { world_from_light: frame, ..sun });
 
     let mapping = DirectionMapping::EqualArea;
     assert_eq!(lamp.kind, LightKind::Point { position: Vec3::Y, mapping });
@@ -46,7 +46,7 @@ fn lights_take_every_key() {
     let areas = &scene.shapes[9..12];
     for area in areas {
         let material = &scene.materials[area.material];
-        assert_eq!(material.surface, Surface::Diffuse { color: Value::Constant(Vec3::ZERO) });
+        assert_eq!(material.surface, Surface::diffuse(Value::Constant(Vec3::ZERO)));
         assert_eq!(material.emission.as_ref().unwrap().radiance, Value::Constant(Vec3::splat(9.0)));
         assert!(material.emission.as_ref().unwrap().two_sided);
     }

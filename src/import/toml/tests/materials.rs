@@ -29,14 +29,14 @@ fn materials_take_every_key() {
     let emission = material("screen").emission.as_ref().unwrap();
     assert_eq!(emission.radiance, Value::Texture(texture("emission of screen")));
     assert!(emission.two_sided);
-    assert_eq!(material("chalk").surface, Surface::Diffuse { color: Value::Texture(texture("squares")) });
+    assert_eq!(material("chalk").surface, Surface::diffuse(Value::Texture(texture("squares"))));
     assert_eq!(
         material("chalk").emission.as_ref().unwrap().radiance,
         Value::Constant(Vec3::new(2.0, 4.0, 6.0))
     );
     let transmittance = Value::Texture(texture("plain"));
     let reflectance = Value::Constant(Vec3::new(0.125, 0.5, 0.0));
-    assert_eq!(material("leaf").surface, Surface::DiffuseTransmission { reflectance, transmittance });
+    assert_eq!(material("leaf").surface, Surface::diffuse_transmission(reflectance, transmittance));
     let opacity = &material("chalk").detail.opacity;
     assert_eq!((opacity.value, opacity.cutoff), (Value::Texture(texture("plain")), Some(0.75)));
     assert_eq!(opacity.filter, Value::Constant(Vec3::new(1.0, 0.5, 0.25)));
@@ -52,11 +52,7 @@ fn materials_take_every_key() {
     assert_eq!(material("white").detail, Detail { sides: Sides::Front, ..Detail::default() });
     assert_eq!(
         material("paint").surface,
-        Surface::Phong {
-            diffuse: Value::Texture(texture("plain")),
-            specular: grey(0.25),
-            exponent: Value::Texture(texture("wood")),
-        }
+        Surface::phong(Value::Texture(texture("plain")), grey(0.25), Value::Texture(texture("wood")))
     );
     let Surface::Conductor(steel) = &material("steel").surface else { panic!("steel") };
     assert_eq!(
