@@ -75,7 +75,8 @@ pub enum Event {
         /// Of the driver.
         driver_s: f64,
         upload_s: f64,
-        /// Trees that were built, kernels that were compiled, and bytes that were sent to the device.
+        /// Displaced meshes that were cut, trees that were built, kernels that were compiled, and bytes that were sent to the device.
+        displaced: u32,
         trees: u32,
         kernels: u32,
         bytes: u64,

@@ -142,6 +142,7 @@ fn tell_generation(shot: &Shot, latency: Option<f64>, console: &mut Console) {
             compile_s: opened.compile_seconds,
             driver_s,
             upload_s: opened.upload_seconds,
+            displaced: opened.displaced,
             trees: opened.trees,
             kernels: opened.kernels,
             bytes: opened.bytes,

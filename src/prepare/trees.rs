@@ -2,10 +2,11 @@
 
 use super::bounds::triangle_bounds;
 use super::bvh::{self, Quality};
+use super::kept::Kept;
 use super::{Leaves, Prepared, Tree};
 use crate::layout::{LEAF, LEAF_FIRST_MASK, Triangle};
 use crate::{Error, Result};
-use std::collections::HashMap;
+use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -15,66 +16,42 @@ const TRIANGLES_A_LEAF: u32 = 4;
 /// The trees of the scene that was prepared before, so that an edit builds only those whose primitives are others.
 #[derive(Debug, Default)]
 pub struct Trees {
-    /// None: nothing is kept.
-    known: Option<HashMap<blake3::Hash, Arc<Tree>>>,
-    /// Those that the scene has which is being prepared.
-    used: HashMap<blake3::Hash, Arc<Tree>>,
-    /// The last scene was prepared to its end.
-    whole: bool,
-    built: u32,
+    kept: Kept<Tree>,
     seconds: f64,
 }
 
 impl Trees {
     /// Trees that are kept for the next scene.
     pub fn kept() -> Self {
-        Self { known: Some(HashMap::new()), ..Self::default() }
+        Self { kept: Kept::remembering(), seconds: 0.0 }
     }
 
     /// Begins a scene: what the last whole one did not use is forgotten.
     pub(super) fn begin(&mut self) {
-        (self.built, self.seconds) = (0, 0.0);
-        if let Some(known) = &mut self.known {
-            if std::mem::take(&mut self.whole) {
-                known.clear();
-            }
-            known.extend(self.used.drain());
-        }
+        self.seconds = 0.0;
+        self.kept.begin();
     }
 
     /// Ends it. Gives the seconds that building took.
     pub(super) fn end(&mut self) -> f64 {
-        self.whole = true;
+        self.kept.end();
         self.seconds
     }
 
     /// A tree that depends on nothing but the bytes of `key`.
     pub(super) fn tree(&mut self, key: &[&[u8]], build: impl FnOnce() -> Tree) -> Arc<Tree> {
-        let Some(known) = &self.known else { return self.timed(build) };
-        let mut hasher = blake3::Hasher::new();
-        for part in key {
-            hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
-        }
-        let key = hasher.finalize();
-        let tree = match self.used.get(&key).or_else(|| known.get(&key)) {
-            Some(tree) => tree.clone(),
-            None => self.timed(build),
-        };
-        self.used.insert(key, tree.clone());
-        tree
-    }
-
-    fn timed(&mut self, build: impl FnOnce() -> Tree) -> Arc<Tree> {
-        let start = Instant::now();
-        let tree = Arc::new(build());
-        self.seconds += start.elapsed().as_secs_f64();
-        self.built += 1;
+        let Ok(tree) = self.kept.get(key, || {
+            let start = Instant::now();
+            let tree = build();
+            self.seconds += start.elapsed().as_secs_f64();
+            Ok::<_, Infallible>(tree)
+        });
         tree
     }
 
     /// How many were built for the last scene.
     pub fn built(&self) -> u32 {
-        self.built
+        self.kept.made()
     }
 }
 
@@ -110,62 +87,5 @@ impl Prepared {
         let place = (tree.root, tree.depth);
         self.tree.append(&mut Arc::unwrap_or_clone(tree).items);
         Ok(place)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn ask(trees: &mut Trees, keys: &[&[u8]]) -> u32 {
-        let built = ask_and_fail(trees, keys);
-        trees.end();
-        built
-    }
-
-    fn ask_and_fail(trees: &mut Trees, keys: &[&[u8]]) -> u32 {
-        trees.begin();
-        for (key, root) in keys.iter().zip(0..) {
-            assert_eq!(trees.tree(&[key], || Tree { root, ..Tree::default() }).root, root);
-        }
-        trees.built()
-    }
-
-    #[test]
-    fn what_the_scene_before_had_is_not_built_again() {
-        let mut trees = Trees::kept();
-        assert_eq!(ask(&mut trees, &[b"a", b"b"]), 2);
-        assert_eq!(ask(&mut trees, &[b"a", b"b"]), 0);
-        assert_eq!(ask(&mut trees, &[b"a"]), 0);
-        // Forgotten, because the last scene had it not
-        assert_eq!(trees.known.as_ref().map(HashMap::len), Some(2));
-        assert_eq!(ask(&mut trees, &[b"a", b"c"]), 1);
-        assert_eq!(ask(&mut trees, &[b"a", b"b"]), 1);
-    }
-
-    #[test]
-    fn a_scene_that_fails_forgets_nothing() {
-        let mut trees = Trees::kept();
-        assert_eq!(ask(&mut trees, &[b"a", b"b"]), 2);
-        assert_eq!(ask_and_fail(&mut trees, &[b"x", b"y", b"c"]), 3);
-        assert_eq!(ask_and_fail(&mut trees, &[]), 0);
-        assert_eq!(ask(&mut trees, &[b"a", b"b", b"c"]), 0);
-    }
-
-    #[test]
-    fn parts_of_a_key_do_not_run_together() {
-        let mut trees = Trees::kept();
-        trees.begin();
-        trees.tree(&[b"ab", b"c"], Tree::default);
-        trees.tree(&[b"a", b"bc"], Tree::default);
-        assert_eq!(trees.built(), 2);
-    }
-
-    #[test]
-    fn nothing_is_kept_unless_asked_for() {
-        let mut trees = Trees::default();
-        assert_eq!(ask(&mut trees, &[b"a"]), 1);
-        assert_eq!(ask(&mut trees, &[b"a"]), 1);
-        assert!(trees.used.is_empty());
     }
 }

@@ -5,9 +5,9 @@ use super::resident::upload_texels;
 use super::threads_of;
 use crate::gpu::{Bindings, Buffer, Command, Gpu, Pipeline, Place};
 use crate::layout::{Backend, Frame, Record as _, TexturePoint, WORD_BYTES, WORKGROUP};
-use crate::prepare::{self, Features, Prepared, Stage, prepare_textures};
-use crate::scene::{Handle, Scene, Texture};
-use crate::shader::Compiler;
+use crate::prepare::{Features, Prepared, PreparedTextures, Stage, prepare_textures};
+use crate::scene::{Handle, Image, Scene, Store, Texels, Texture};
+use crate::shader::{Compiler, Spirv};
 use crate::{Error, Result};
 use std::sync::Arc;
 
@@ -27,6 +27,55 @@ pub struct Evaluator {
     host: Arc<Buffer>,
 }
 
+/// Some textures of a scene and the kernel that gives their values, before they are on a device.
+pub(super) struct Asked {
+    textures: PreparedTextures,
+    kernel: Spirv,
+    backend: Backend,
+}
+
+impl Asked {
+    /// Prepares the textures and compiles the kernel.
+    ///
+    /// # Errors
+    ///
+    /// As [`prepare_textures`], and when the kernel does not compile.
+    pub fn new(
+        compiler: &mut Compiler,
+        scene: &Scene,
+        asked: &[Handle<Texture>],
+        backend: Backend,
+    ) -> Result<Self> {
+        let textures = prepare_textures(scene, asked)?;
+        add_generated(compiler.sources_mut(), &textures.glsl)?;
+        let features =
+            Features { vertex_color: textures.vertex_color, uv1: textures.uv1, ..Features::default() };
+        let prepared = Prepared { features, ..Prepared::default() };
+        let kernel = compiler.kernel(&key(scene, &prepared, Stage::Evaluate, None, backend))?;
+        Ok(Self { textures, kernel, backend })
+    }
+
+    /// A hash of all that the values depend on.
+    pub fn hash(&self, images: &Store<Image>) -> blake3::Hash {
+        let mut hasher = blake3::Hasher::new();
+        let mut add = |bytes: &[u8]| {
+            hasher.update(&(bytes.len() as u64).to_le_bytes()).update(bytes);
+        };
+        add(bytemuck::cast_slice(self.kernel.words()));
+        add(bytemuck::cast_slice(&self.textures.records));
+        add(bytemuck::cast_slice(&self.textures.references));
+        for image in self.textures.atlas.images().map(|image| &images[image]) {
+            add(bytemuck::cast_slice(&[image.width, image.height]));
+            match &image.texels {
+                Texels::Rgba8(texels) => add(bytemuck::cast_slice(texels)),
+                Texels::Rgba16(texels) => add(bytemuck::cast_slice(texels)),
+                Texels::RgbaF32(texels) => add(bytemuck::cast_slice(texels)),
+            }
+        }
+        hasher.finalize()
+    }
+}
+
 impl Evaluator {
     /// Puts textures of a scene on the device and compiles the kernel that gives their values.
     ///
@@ -40,14 +89,14 @@ impl Evaluator {
         asked: &[Handle<Texture>],
         backend: Backend,
     ) -> Result<Self> {
-        let textures = prepare_textures(scene, asked)?;
-        add_generated(compiler.sources_mut(), &textures.glsl)?;
-        let features =
-            Features { vertex_color: textures.vertex_color, uv1: textures.uv1, ..Features::default() };
-        let prepared = Prepared { features, ..Prepared::default() };
-        let kernel = compiler.kernel(&key(scene, &prepared, Stage::Evaluate, None, backend))?;
+        Self::open(gpu, &Asked::new(compiler, scene, asked, backend)?, &scene.images)
+    }
+
+    pub(super) fn open(gpu: Arc<Gpu>, asked: &Asked, images: &Store<Image>) -> Result<Self> {
+        let Asked { textures, kernel, backend } = asked;
+        let backend = *backend;
         let layout = gpu.layout(backend)?;
-        let pipeline = gpu.pipeline(&layout, &kernel)?;
+        let pipeline = gpu.pipeline(&layout, kernel)?;
         let point_bytes = MOST_POINTS as u64 * u64::from(TexturePoint::WORDS) * WORD_BYTES;
         let value_bytes = MOST_POINTS as u64 * WORD_BYTES;
         let uniform = gpu.buffer("frame", size_of::<Frame>() as u64, Place::Upload)?;
@@ -55,7 +104,7 @@ impl Evaluator {
         let values = gpu.buffer("values", value_bytes, Place::Device)?;
         let host = gpu.buffer("values (host)", value_bytes, Place::Readback)?;
         let records = gpu.upload("textures", bytemuck::cast_slice(&textures.records))?;
-        let texels = upload_texels(&gpu, &textures.atlas, |image| scene.images.shared(image))?;
+        let texels = upload_texels(&gpu, &textures.atlas, |image| images.shared(image))?;
         let bindings = gpu.bindings(
             &layout,
             &[
@@ -69,7 +118,7 @@ impl Evaluator {
         let frame = Frame { threads: threads_of(&gpu), ..Frame::default() };
         Ok(Self {
             gpu,
-            references: textures.references,
+            references: textures.references.clone(),
             pipeline,
             bindings,
             frame,
@@ -113,18 +162,4 @@ impl Evaluator {
         ])?;
         self.host.read(bytes, |words| values.extend_from_slice(bytemuck::cast_slice(words)))
     }
-}
-
-/// Cuts and moves the displaced meshes of a scene.
-///
-/// # Errors
-///
-/// As [`prepare::displace`] and [`Evaluator::new`].
-pub fn displace(gpu: &Arc<Gpu>, compiler: &mut Compiler, scene: &mut Scene, backend: Backend) -> Result<()> {
-    let asked = prepare::displacing(scene);
-    if asked.is_empty() {
-        return Ok(());
-    }
-    let evaluator = Evaluator::new(gpu.clone(), compiler, scene, &asked, backend)?;
-    prepare::displace(scene, &mut |texture, points| evaluator.values(texture, points))
 }

@@ -3,6 +3,7 @@
 mod accumulate;
 mod camera;
 mod check;
+mod displace;
 mod evaluate;
 mod frame;
 mod kernels;
@@ -15,7 +16,8 @@ mod wave;
 
 pub use accumulate::Accumulation;
 pub use check::{Checked, check_kernels};
-pub use evaluate::{Evaluator, displace};
+pub use displace::displace;
+pub use evaluate::Evaluator;
 pub use kernels::{Kernels, add_generated, key};
 pub use open::{Kept, Opened};
 pub use resident::Resident;

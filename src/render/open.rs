@@ -3,7 +3,7 @@
 use super::{Kernels, Options, Renderer, Uploads, displace};
 use crate::Result;
 use crate::gpu::Gpu;
-use crate::prepare::{self, Trees, View};
+use crate::prepare::{self, Displaced, Trees, View};
 use crate::scene::Scene;
 use crate::shader::Compiler;
 use std::sync::Arc;
@@ -11,13 +11,14 @@ use std::time::Instant;
 
 /// What is kept of a scene, so that the next one does only what an edit touches. Kernels are kept by the compiler and the device.
 pub struct Kept {
+    displaced: Displaced,
     trees: Trees,
     uploads: Uploads,
 }
 
 impl Default for Kept {
     fn default() -> Self {
-        Self { trees: Trees::kept(), uploads: Uploads::kept() }
+        Self { displaced: Displaced::remembering(), trees: Trees::kept(), uploads: Uploads::kept() }
     }
 }
 
@@ -34,6 +35,8 @@ pub struct Opened {
     pub driver_seconds: f64,
     /// Seconds of sending buffers.
     pub upload_seconds: f64,
+    /// Displaced meshes that were cut and moved.
+    pub displaced: u32,
     /// Trees that were built.
     pub trees: u32,
     /// Kernels that were given to glslang.
@@ -50,7 +53,8 @@ impl Renderer {
     ///
     /// As [`prepare::prepare`], [`Kernels::new`] and [`Self::new`].
     pub fn open(gpu: Arc<Gpu>, compiler: &mut Compiler, scene: Scene, options: Options) -> Result<Self> {
-        let mut nothing = Kept { trees: Trees::default(), uploads: Uploads::default() };
+        let mut nothing =
+            Kept { displaced: Displaced::default(), trees: Trees::default(), uploads: Uploads::default() };
         Ok(Self::open_again(gpu, compiler, scene, options, &mut nothing)?.0)
     }
 
@@ -67,7 +71,7 @@ impl Renderer {
         kept: &mut Kept,
     ) -> Result<(Self, Opened)> {
         let mut clock = Clock(Instant::now());
-        displace(&gpu, compiler, &mut scene, options.backend)?;
+        displace(&gpu, compiler, &mut scene, options.backend, &mut kept.displaced)?;
         let displace_seconds = clock.lap();
         let mut prepared = prepare::prepare_again(&scene, &mut kept.trees)?;
         if options.view.is_some() {
@@ -81,12 +85,14 @@ impl Renderer {
         let renderer = Self::place(gpu, kernels, scene, prepared, options.slicing, &mut kept.uploads)?;
         let compile_seconds =
             after.lookup_seconds - before.lookup_seconds + after.compile_seconds - before.compile_seconds;
+        kept.displaced.end();
         let opened = Opened {
             displace_seconds,
             prepare_seconds,
             compile_seconds,
             driver_seconds: (kernel_seconds - compile_seconds).max(0.0),
             upload_seconds: clock.lap(),
+            displaced: kept.displaced.made(),
             trees: kept.trees.built(),
             kernels: after.misses - before.misses,
             bytes: kept.uploads.bytes(),

@@ -90,6 +90,11 @@ impl<T> Store<T> {
         self.items[handle.index()].1.clone()
     }
 
+    /// Puts another object in the place of one.
+    pub fn replace(&mut self, handle: Handle<T>, item: impl Into<Arc<T>>) {
+        self.items[handle.index()].1 = item.into();
+    }
+
     /// The objects alone.
     pub fn into_items(self) -> impl Iterator<Item = Arc<T>> {
         self.items.into_iter().map(|(_, item)| item)

@@ -84,6 +84,11 @@ impl Atlas {
         self.pages.last().map_or(0, Page::end)
     }
 
+    /// The images of which there are pictures, in the order in which [`Self::fill`] asks for them.
+    pub fn images(&self) -> impl Iterator<Item = Handle<Image>> {
+        self.pictures.chunk_by(|a, b| a.image == b.image).map(|group| group[0].image)
+    }
+
     /// First word and pitch of a picture.
     pub(super) fn address(&self, place: Place) -> (u32, u32) {
         let page = self.pages[place.page];

@@ -5,6 +5,7 @@
 
 mod refine;
 
+use super::Displaced;
 use crate::layout::TexturePoint;
 use crate::scene::{
     Camera, Displacement, DisplacementDirection, EdgeLimit, Film, Handle, Instance, Mesh, MeshPart, Scene,
@@ -24,11 +25,17 @@ pub fn displacing(scene: &Scene) -> Vec<Handle<Texture>> {
     placed.filter_map(|mesh| Some(mesh.displacement?.texture)).collect()
 }
 
-/// Puts displaced meshes in place of those that say how they are displaced.
+/// Puts displaced meshes in place of those that say how they are displaced. Those that `kept` has of the scene before are not made
+/// again: `textures` is all that `values` depends on, but for the texture and the points.
 ///
 /// # Errors
 /// When a mesh is cut into more triangles than it may have, and those of `values`.
-pub fn displace(scene: &mut Scene, values: &mut Values<'_>) -> Result<()> {
+pub fn displace(
+    scene: &mut Scene,
+    textures: &[u8],
+    kept: &mut Displaced,
+    values: &mut Values<'_>,
+) -> Result<()> {
     // A mesh that is placed several times is displaced once
     let meshes: BTreeSet<_> = scene.instances.iter().map(|instance| instance.mesh).collect();
     for handle in meshes {
@@ -37,14 +44,48 @@ pub fn displace(scene: &mut Scene, values: &mut Values<'_>) -> Result<()> {
         let placed = scene.instances.iter().filter(|instance| instance.mesh == handle);
         let Some(nearest) = nearest(mesh, placed, &scene.camera) else { continue };
         let world = nearest.world_from_object;
-        let refined =
-            refine(mesh, displacement, &world, &scene.camera, &scene.film).map_err(|mut error| {
-                error.message = format!("mesh `{}`: {}", scene.meshes.name(handle), error.message);
-                error
-            })?;
-        scene.meshes[handle] = moved(mesh, refined, displacement, &world, values)?;
+        let parts = [textures, &made_from(mesh, displacement, &world, &scene.camera, &scene.film)];
+        let key = [&parts[..], &arrays(mesh)].concat();
+        let displaced = kept.get(&key, || {
+            let refined =
+                refine(mesh, displacement, &world, &scene.camera, &scene.film).map_err(|mut error| {
+                    error.message = format!("mesh `{}`: {}", scene.meshes.name(handle), error.message);
+                    error
+                })?;
+            moved(mesh, refined, displacement, &world, values)
+        })?;
+        scene.meshes.replace(handle, displaced);
     }
     Ok(())
+}
+
+/// All that a displaced mesh is made from, but for its arrays and the values of its texture.
+fn made_from(
+    mesh: &Mesh,
+    displacement: &Displacement,
+    world: &Affine3A,
+    camera: &Camera,
+    film: &Film,
+) -> Vec<u8> {
+    // How far edges are cut depends on where they are seen from
+    let seen = match displacement.edge {
+        EdgeLimit::Length(_) => None,
+        EdgeLimit::Pixels(_) => Some((camera, film.width, film.height)),
+    };
+    format!("{displacement:?} {world:?} {:?} {} {seen:?}", mesh.parts, mesh.round).into_bytes()
+}
+
+/// The arrays of a mesh.
+fn arrays(mesh: &Mesh) -> [&[u8]; 7] {
+    [
+        bytemuck::cast_slice(&mesh.positions),
+        bytemuck::cast_slice(&mesh.normals),
+        bytemuck::cast_slice(&mesh.uvs),
+        bytemuck::cast_slice(&mesh.uvs1),
+        bytemuck::cast_slice(&mesh.colors),
+        bytemuck::cast_slice(&mesh.tangents),
+        bytemuck::cast_slice(&mesh.triangles),
+    ]
 }
 
 /// The instance of a mesh that comes nearest to the camera.

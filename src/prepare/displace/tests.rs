@@ -28,7 +28,7 @@ fn displaced(scene: &Scene, value: impl Fn(&TexturePoint) -> [f32; 3]) -> Mesh {
     let mut values =
         |_, points: &[TexturePoint]| Ok(points.iter().map(&value).map(|[r, g, b]| [r, g, b, 1.0]).collect());
     let mut scene = scene.clone();
-    displace(&mut scene, &mut values).unwrap();
+    displace(&mut scene, &[], &mut Displaced::default(), &mut values).unwrap();
     scene.meshes.iter().next().unwrap().2.clone()
 }
 
@@ -185,7 +185,50 @@ fn the_bound_of_triangles_is_an_error_before_it_is_passed() {
     let mut scene = scene(Mesh::unit_sphere(), EdgeLimit::Length(1e-6), NORMAL, 0.1);
     let (handle, ..) = scene.meshes.iter().next().unwrap();
     scene.meshes[handle].displacement.as_mut().unwrap().most_triangles = 5000;
-    let error = displace(&mut scene, &mut |_, _| panic!("nothing is asked for")).unwrap_err();
+    let mut nothing = |_, _: &[TexturePoint]| panic!("nothing is asked for");
+    let error = displace(&mut scene, &[], &mut Displaced::default(), &mut nothing).unwrap_err();
     assert_eq!(error.message, "mesh `hills`: displacement cuts it into more than 5000 triangles");
     assert!(error.help.unwrap().contains("max_triangles"));
+}
+
+#[test]
+fn a_mesh_is_displaced_again_when_something_changes_that_it_is_made_from() {
+    let by_length = scene(Mesh::unit_sphere(), EdgeLimit::Length(0.5), NORMAL, 0.1);
+    let by_pixels = scene(Mesh::unit_sphere(), EdgeLimit::Pixels(100.0), NORMAL, 0.1);
+    for (start, sees_camera) in [(by_length, false), (by_pixels, true)] {
+        let mut kept = Displaced::remembering();
+        let mut made = |edit: &dyn Fn(&mut Scene), textures: &[u8]| {
+            let mut scene = start.clone();
+            edit(&mut scene);
+            let mut ones = |_, points: &[TexturePoint]| Ok(vec![[1.0; 4]; points.len()]);
+            kept.begin();
+            displace(&mut scene, textures, &mut kept, &mut ones).unwrap();
+            kept.end();
+            let mesh = scene.meshes.iter().next().unwrap().2;
+            assert!(mesh.displacement.is_none() && mesh.triangles.len() > 20);
+            kept.made() > 0
+        };
+        assert!(made(&|_| {}, b""), "there is none");
+        assert!(!made(&|_| {}, b""), "nothing changed");
+        let light = |scene: &mut Scene| scene.lights.push(crate::scene::Light::point(Vec3::Y, Vec3::ONE));
+        assert!(!made(&light, b""), "a light");
+        assert_eq!(made(&|scene| scene.camera.position = Vec3::Z * 9.0, b""), sees_camera, "the camera");
+        assert_eq!(made(&|_| {}, b""), sees_camera, "back");
+        assert!(made(&|_| {}, b"other"), "the textures");
+        assert!(
+            made(&|scene| scene.instances[0].world_from_object.translation.x = 1.0, b"other"),
+            "its place"
+        );
+        let mesh = |scene: &Scene| scene.instances[0].mesh;
+        let corner = |scene: &mut Scene| {
+            let mesh = mesh(scene);
+            scene.meshes[mesh].positions[0] *= 1.5;
+        };
+        assert!(made(&corner, b"other"), "a corner");
+        let height = |scene: &mut Scene| {
+            let mesh = mesh(scene);
+            scene.meshes[mesh].displacement.as_mut().unwrap().height = 0.2;
+        };
+        assert!(made(&height, b"other"), "the height");
+    }
 }
