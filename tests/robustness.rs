@@ -271,6 +271,34 @@ fn a_camera_on_a_surface_and_in_a_corner() {
 }
 
 #[test]
+fn lights_at_the_ends_of_their_ranges() {
+    let position = Vec3::new(0.5, 2.0, 0.5);
+    let spot = |cone, edge| LightKind::spot(position, cone, edge);
+    let dark = [spot(0.0, 0.0), spot(0.0, 180.0)];
+    let bright = [spot(180.0, 0.0), spot(180.0, 180.0), spot(0.01, 0.0), LightKind::distant(90.0)];
+    let with = |kind: Option<LightKind>| {
+        let mut s = scene(8, 8, 16);
+        let m = s.diffuse(0.5);
+        s.floor(m);
+        s.lights.push(point(Vec3::new(-0.3, 1.0, 0.0), 1.0));
+        s.lights.extend(kind.map(|kind| Light::new(kind, grey(1.0)).along(Vec3::NEG_Y)));
+        let film = film_of(&s, options());
+        assert_eq!(film.left_out(), 0, "{kind:?}");
+        mean(&film.resolve())
+    };
+    let alone = with(None);
+    for kind in dark {
+        // What cannot be seen changes nothing, nor the unit of the sums
+        assert_eq!(with(Some(kind)).mean, alone.mean, "{kind:?}");
+    }
+    for kind in bright {
+        let both = with(Some(kind));
+        let noise = 4.0 * (both.error[1] + alone.error[1]);
+        assert!(both.mean[1] >= 0.999 * alone.mean[1] - noise, "{kind:?}: {both:?}, alone {alone:?}");
+    }
+}
+
+#[test]
 fn materials_at_the_ends_of_their_ranges() {
     let metal = |x: f32, a: f32, f| conductor(x, a, f);
     let index = Fresnel::Index {

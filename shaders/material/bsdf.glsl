@@ -5,11 +5,11 @@
 struct Bsdf {
     uint kind;       // MATERIAL_…
     uint mode;       // FRESNEL_…, or DIELECTRIC_…
-    vec3 color;      // reflectance, diffuse coefficient or base colour
-    vec3 specular;   // specular coefficient, transmittance, factor on what a dielectric reflects head-on, or η of a conductor
+    vec3 color;      // reflectance, base colour, or first colour of a BSDF of the table
+    vec3 specular;   // second colour of a BSDF of the table, factor on what a dielectric reflects head-on, or η of a conductor
     vec3 k;          // k of a conductor
     float ior;       // index behind the geometric surface over index in front of it
-    vec2 numbers;    // of a BSDF of the table
+    vec2 numbers;    // numbers of a BSDF of the table
     vec2 alpha;      // GGX widths; both 0 = smooth
     // The rest is of the principled model
     float metallic;

@@ -219,6 +219,8 @@ constants! {
     FILTER_CELLS = 128;
     /// Light kind: point light.
     LIGHT_POINT = 0;
+    /// Light kind: picture thrown from a point.
+    LIGHT_PROJECTION = 1;
     /// Light kind: sphere or ellipsoid.
     LIGHT_SPHERE = 2;
     /// Light kind: rectangle or parallelogram.
@@ -229,8 +231,6 @@ constants! {
     LIGHT_TRIANGLE = 5;
     /// Bit of the word of the corners of a triangle that is a light: its second and third corner changed places.
     LIGHT_TURNED = 1 << 31;
-    /// Light kind: picture thrown from a point.
-    LIGHT_PROJECTION = 1;
     /// Light kind: part of a sphere.
     LIGHT_SPHERE_PART = 6;
     /// Light kind: part of a disk.

@@ -59,6 +59,9 @@ pub(super) fn choose(
 /// likely to look: as far from the light as the camera is, but between 1/64 and 1/8 of the scene; farther where nothing is
 /// so near. A sample stands for all lights, so a light that is rarely chosen counts for more.
 fn punctual_radiance(intensity: f32, light: &Light, camera: Vec3, size: f32, receivers: &Bounds) -> f32 {
+    if light.chance == 0.0 {
+        return 0.0;
+    }
     let all = intensity / light.chance.max(1e-9);
     let has_place = match light.kind {
         LIGHT_POINT | LIGHT_PROJECTION => true,

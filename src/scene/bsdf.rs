@@ -98,6 +98,7 @@ const _: () = {
     while i < BSDFS.len() {
         assert!(BSDFS[i].colors.len() <= BsdfKind::MOST_COLORS, "a material has room for two colours");
         assert!(BSDFS[i].numbers.len() <= BsdfKind::MOST_NUMBERS, "a material has room for two numbers");
+        assert!(BSDFS[i].colors.len() + BSDFS[i].numbers.len() > 0, "a BSDF reads something");
         i += 1;
     }
 };

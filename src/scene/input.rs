@@ -1,7 +1,6 @@
 //! Inputs of what is a row of a table: [`BSDFS`](super::BSDFS) and [`PUNCTUAL_LIGHTS`](super::PUNCTUAL_LIGHTS).
 
-/// A colour: a part of the light, in [0, 1]. The colours of a row together are 1 at most, and scaled down where they are more, so that no
-/// energy is made.
+/// A colour: a part of the light, in [0, 1]. Two of a row are scaled down where together they are more than 1, so that no energy is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InputColor {
     /// Its key in a scene, and its field in GLSL.
@@ -10,7 +9,7 @@ pub struct InputColor {
     pub default: f32,
 }
 
-/// A number.
+/// A number, in the unit that its row says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InputNumber {
     /// Its key in a scene, and its field in GLSL.

@@ -4,6 +4,7 @@ use super::probe::{Probe, Word, as_doubles, floats, three, vector};
 use super::random::Random;
 use super::twins::math::{cross, dot, length, normalize, sub, wide};
 use dapple::layout::{LIGHT_DISK, LIGHT_SPHERE, LIGHT_TRIANGLE, Light, NONE};
+use dapple::scene::PUNCTUAL_LIGHTS;
 use std::f64::consts::PI;
 
 /// One sample of a light.
@@ -17,38 +18,39 @@ pub struct Sample {
     pub radiance: f64,
 }
 
+const GLSL: &str = "
+    #define HAS_LIGHT_POINT
+    #define HAS_LIGHT_SPHERE
+    #define HAS_LIGHT_QUAD
+    #define HAS_LIGHT_DISK
+    #define HAS_LIGHT_TRIANGLE
+    #define HAS_LIGHT_PART
+    #define HAS_LIGHT_PATCH
+    #include \"light/light.glsl\"
+    Light probe_light() {
+        return light_unpack(fetch_points(0u), fetch_points(1u), fetch_points(2u), fetch_points(3u),
+                            fetch_points(4u), fetch_points(5u), fetch_points(6u));
+    }
+    void probe(uint i) {
+        Light light = probe_light();
+        vec3 from = uintBitsToFloat(fetch_points(7u).xyz);
+        LightSample s = light_sample_one(light, from, uintBitsToFloat(fetch_points(8u + i).xy));
+        float pdf = light_pdf_one(light, from, s.point, s.normal);
+        store_values(3u * i, floatBitsToUint(vec4(s.wi, s.pdf)));
+        store_values(3u * i + 1u, floatBitsToUint(vec4(s.point, pdf)));
+        store_values(3u * i + 2u, floatBitsToUint(vec4(s.normal, s.radiance.x)));
+    }";
+
 /// Samples of a light as seen from a point, at random.
 pub fn samples(light: &Light, from: [f32; 3], count: usize) -> Vec<Sample> {
-    let glsl = "
-        #define HAS_LIGHT_POINT
-        #define HAS_LIGHT_SPOT
-        #define HAS_LIGHT_DISTANT
-        #define HAS_LIGHT_SPHERE
-        #define HAS_LIGHT_QUAD
-        #define HAS_LIGHT_DISK
-        #define HAS_LIGHT_TRIANGLE
-        #define HAS_LIGHT_PART
-        #define HAS_LIGHT_PATCH
-        #include \"light/light.glsl\"
-        Light probe_light() {
-            return light_unpack(fetch_points(0u), fetch_points(1u), fetch_points(2u), fetch_points(3u),
-                                fetch_points(4u), fetch_points(5u), fetch_points(6u));
-        }
-        void probe(uint i) {
-            Light light = probe_light();
-            vec3 from = uintBitsToFloat(fetch_points(7u).xyz);
-            LightSample s = light_sample_one(light, from, uintBitsToFloat(fetch_points(8u + i).xy));
-            float pdf = light_pdf_one(light, from, s.point, s.normal);
-            store_values(3u * i, floatBitsToUint(vec4(s.wi, s.pdf)));
-            store_values(3u * i + 1u, floatBitsToUint(vec4(s.point, pdf)));
-            store_values(3u * i + 2u, floatBitsToUint(vec4(s.normal, s.radiance.x)));
-        }";
+    let rows = PUNCTUAL_LIGHTS.iter().map(|row| format!("#define HAS_LIGHT_{}\n", row.name.to_uppercase()));
+    let glsl = rows.collect::<String>() + GLSL;
     let mut inputs: Vec<Word> = bytemuck::cast_slice(std::slice::from_ref(light)).to_vec();
     inputs.push(vector(from));
     let header = inputs.len();
     let mut random = Random(1);
     inputs.extend((0..count).map(|_| floats(random.f32(), random.f32(), 0.0, 0.0)));
-    let values = Probe::new().both(glsl, &inputs, count, 3 * count);
+    let values = Probe::new().both(&glsl, &inputs, count, 3 * count);
     let sample = |(v, u): (&[Word], &Word)| {
         let [a, b, c] = [v[0], v[1], v[2]].map(as_doubles);
         let [x, y, ..] = as_doubles(*u);

@@ -37,9 +37,6 @@ fn kinds_with_nothing_but_what_they_need() {
     ];
     let materials = [
         ("unlit", "color = 1"),
-        ("diffuse", ""),
-        ("diffuse_transmission", ""),
-        ("phong", ""),
         ("conductor", ""),
         ("dielectric", ""),
         ("coated_diffuse", ""),
@@ -47,6 +44,7 @@ fn kinds_with_nothing_but_what_they_need() {
         ("principled", ""),
         ("mix", "a = \"diffuse\"\nb = \"phong\""),
     ];
+    let materials: Vec<_> = dapple::scene::BSDFS.iter().map(|row| (row.name, "")).chain(materials).collect();
     let round = "center = [0, 0, 0]\nradius = 1";
     let tube = "center = [0, 0, 0]\nradius = 1\naxis = [0, 1, 0]\nz_min = 0\nz_max = 1";
     let patch = "p00 = [0, 0, 0]\np10 = [1, 0, 0]\np01 = [0, 1, 0]\np11 = [1, 1, 1]";

@@ -83,6 +83,49 @@ fn lights_without_extent() {
 }
 
 #[test]
+fn penumbra_of_a_disk_in_the_sky() {
+    // 20° wide, straight above an edge at height 2: the penumbra is 2 · 2 tan 10° wide
+    let mut s = scene(24, 1, 2048);
+    s.render.max_depth = 1;
+    s.camera = look(Vec3::new(0.0, 1.0, 0.001), Vec3::ZERO, 4.0);
+    s.camera.up = Vec3::NEG_Z;
+    let white = s.material(white(), None);
+    s.floor(white);
+    s.lights.push(Light::new(LightKind::distant(20.0), grey(3.0)).along(Vec3::NEG_Y));
+    let black = s.black();
+    s.quad(Vec3::new(-50.0, 2.0, -50.0), Vec3::X * 50.0, Vec3::Z * 100.0, black);
+    let p = render(&s);
+    // The part of the disk, as it is on the floor, from which rays pass the edge
+    let half = 10_f64.to_radians().sin();
+    let seen = |x: f64| {
+        integrate_square(200, |u, v| {
+            let [a, b] = [2.0 * u - 1.0, 2.0 * v - 1.0].map(|c| half * c);
+            let r2 = a * a + b * b;
+            if r2 < half * half && x + 2.0 * a / (1.0 - r2).sqrt() > 0.0 { 4.0 / PI } else { 0.0 }
+        })
+    };
+    let (mut dark, mut part, mut full) = (0, 0, 0);
+    for px in 0..24 {
+        let center = center_ray(&s, px, 0);
+        let x = center.0.x + center.1.x / -center.1.y;
+        let width = center_ray(&s, 1, 0).1.x / -center_ray(&s, 1, 0).1.y
+            - center_ray(&s, 0, 0).1.x / -center_ray(&s, 0, 0).1.y;
+        let share =
+            (0..16).map(|k| seen(x + ((f64::from(k) + 0.5) / 16.0 - 0.5) * width)).sum::<f64>() / 16.0;
+        let measured = mean_of(&p, [px as usize]);
+        let off = (measured.mean[1] - 3.0 / PI * share).abs();
+        assert!(off <= SIGMAS * measured.error[1] + 4e-3, "{x}: {measured:?}, expected {share} of 3 / π");
+        assert!(SIGMAS * measured.error[1] < 0.06, "too noisy");
+        match share {
+            0.0 => dark += 1,
+            _ if share < 0.99 => part += 1,
+            _ => full += 1,
+        }
+    }
+    assert!(dark >= 2 && part >= 5 && full >= 2, "{dark} {part} {full}");
+}
+
+#[test]
 fn penumbra_behind_a_straight_edge() {
     // Light at height 4, 1 wide; edge at height 2: the penumbra is 1 · 2 / (4 − 2) = 1 wide
     let (origin, u, v) = (Vec3::new(-0.5, 4.0, -0.5), Vec3::X, Vec3::Z);

@@ -5,7 +5,7 @@ use crate::common::directions::{CELLS_PHI, CELLS_Z, cell_integrals, cell_of, mid
 use crate::common::probe::{Probe, Word, as_doubles, floats, three, vector};
 use crate::common::random::Random;
 use dapple::layout::{Backend, DIELECTRIC_SOLID, InterfaceInput, MATERIAL_BSDFS, MATERIAL_DIELECTRIC};
-use dapple::scene::BsdfKind;
+use dapple::scene::{BSDFS, BsdfKind};
 
 /// A BSDF that is tested.
 #[derive(Clone, Copy, Default)]
@@ -49,11 +49,9 @@ pub fn bsdf(name: &str) -> u32 {
 }
 
 impl Lobe {
-    /// Whether light can go through.
+    /// Whether light can go through to an inside, or through a sheet of that.
     pub fn is_clear(&self) -> bool {
-        // Phong's lobe may go below the surface, where it is absorbed
-        let row = self.kind >= MATERIAL_BSDFS && self.kind != bsdf("phong");
-        self.kind == MATERIAL_DIELECTRIC || row || self.transmission > 0.0
+        self.kind == MATERIAL_DIELECTRIC || self.transmission > 0.0
     }
 
     fn header(&self, wo: [f32; 3]) -> Vec<Word> {
@@ -75,7 +73,8 @@ impl Lobe {
     pub fn inputs(&self, wo: [f32; 3], points: impl Iterator<Item = Word>) -> (Vec<Word>, String) {
         let mut inputs = self.header(wo);
         inputs.extend(points);
-        let glsl = format!("#define TABLES {}u\n{BSDF}", inputs.len());
+        let rows = BSDFS.iter().map(|row| format!("#define HAS_BSDF_{}\n", row.name.to_uppercase()));
+        let glsl = format!("#define TABLES {}u\n{}{BSDF}", inputs.len(), rows.collect::<String>());
         inputs.extend(self.interface.words);
         (inputs, glsl)
     }
@@ -85,9 +84,6 @@ const HEADER: usize = 10;
 
 const BSDF: &str = "
     #define fetch_materials(i) fetch_points(TABLES + (i))
-    #define HAS_DIFFUSE
-    #define HAS_DIFFUSE_TRANSMISSION
-    #define HAS_PHONG
     #define HAS_CONDUCTOR
     #define HAS_METAL_INDEX
     #define HAS_DIELECTRIC
@@ -246,8 +242,10 @@ pub fn check_samples(lobes: &[Lobe]) {
             }
 
             // A lobe that goes below the surface is absorbed there, whatever its density says
-            let both_sides = lobe.is_clear();
             let density = over_the_sphere(lobe, wo);
+            let mut values = density.iter().map(|d| d.1).zip(midpoints());
+            let both_sides = values.any(|(value, wi)| wi[2] * wo[2] < 0.0 && value != [0.0; 3]);
+            assert!(observed[..CELLS_Z * CELLS_PHI].iter().sum::<u64>() > 0, "{place}: nothing is sampled");
             let everywhere: f64 = cell_integrals(density.iter().map(|d| d.0)).iter().sum();
             // Facets throw a part of the light under the surface, where their density is 0
             let whole = [bsdf("diffuse"), bsdf("phong")].contains(&lobe.kind);

@@ -29,7 +29,7 @@ const OWN: [(u32, &str, &str); 5] = [
     (MATERIAL_PRINCIPLED, "principled", "principled_verbs"),
 ];
 
-// A scene says in the bits of a word which kinds it has, and a material has room for so many inputs
+// A scene says in the bits of a word which kinds it has
 const _: () = assert!(MATERIAL_BSDFS as usize + BSDFS.len() <= u32::BITS as usize);
 
 /// Every kind that scatters.
@@ -46,7 +46,8 @@ pub fn materials(bsdfs: &[&'static BsdfKind]) -> impl Iterator<Item = MaterialRo
 impl MaterialRow {
     /// The switch of the kernels that leaves it in.
     pub fn switch(&self) -> String {
-        format!("HAS_{}", self.name.to_uppercase())
+        let table = if self.bsdf.is_some() { "BSDF_" } else { "" };
+        format!("HAS_{table}{}", self.name.to_uppercase())
     }
 
     /// Its number in GLSL.
@@ -103,7 +104,8 @@ fn write_inputs(out: &mut String, bsdf: &BsdfKind) {
     _ = writeln!(out, "{name} {}_inputs(Bsdf b) {{ return {name}({}); }}", bsdf.name, values.join(", "));
 }
 
-/// The verbs of all kinds that scatter. Those that the scene does not use are left out by switches: `HAS_` and the name in capitals.
+/// The verbs of all kinds that scatter. Those that the scene does not use are left out by switches: `HAS_`, or `HAS_BSDF_` of the table, and
+/// the name in capitals.
 pub(super) fn menu_glsl(bsdfs: &[&'static BsdfKind]) -> String {
     let mut out = format!("{HEAD}#include \"material/generated/inputs.glsl\"\n");
     for row in materials(bsdfs) {
