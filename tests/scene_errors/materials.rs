@@ -99,7 +99,7 @@ fn materials() {
         ),
         (
             "[material.m]\nkind = 'principled'\ncolor = 1",
-            "3:1: unknown key `color` in principled material `m`; it is a key of unlit, diffuse, diffuse_transmission, coated_diffuse",
+            "3:1: unknown key `color` in principled material `m`; it is a key of diffuse, diffuse_transmission, unlit, coated_diffuse",
         ),
         ("[material.m]\nkind = 'mix'\na = 'm'", "1:1: `b` is missing in mix material `m`"),
         (

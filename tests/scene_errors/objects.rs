@@ -219,7 +219,7 @@ fn lights_and_environment() {
     check(&[
         (
             "[[light]]\nkind = 'sun'",
-            "2:8: `kind` is \"sun\", must be one of \"point\", \"spot\", \"projection\", \"distant\", \"sphere\", \"disk\", \"quad\", \"cylinder\", \"patch\"",
+            "2:8: `kind` is \"sun\", must be one of \"spot\", \"distant\", \"point\", \"projection\", \"sphere\", \"disk\", \"quad\", \"cylinder\", \"patch\"",
         ),
         ("[[light]]\nkind = 'point'\nposition = [0, 0, 0]", "1:1: `intensity` is missing in point light 1"),
         (
@@ -275,8 +275,8 @@ fn lights_and_environment() {
             "6:6: `up` is parallel to the direction of the light; turn one of them",
         ),
         (
-            "[[light]]\nkind = 'spot'\nposition = [0, 0, 0]\nintensity = 1\ntarget = [1, 0, 0]\ncone_angle = 20\nfalloff_angle = 21",
-            "7:17: `falloff_angle` is 21, must be from 0 to 20",
+            "[[light]]\nkind = 'spot'\nposition = [0, 0, 0]\nintensity = 1\ntarget = [1, 0, 0]\ncone_angle = 20\nfalloff_angle = 181",
+            "7:17: `falloff_angle` is 181, must be from 0 to 180",
         ),
         (
             "[[light]]\nkind = 'distant'\nirradiance = 1\nfrom = [0, 0, 0]",
