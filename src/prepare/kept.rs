@@ -32,6 +32,11 @@ impl<T> Kept<T> {
         Self { known: Some(HashMap::new()), ..Self::default() }
     }
 
+    /// Whether anything is kept.
+    pub fn remembers(&self) -> bool {
+        self.known.is_some()
+    }
+
     /// Begins a scene: what the last whole one did not use is forgotten.
     pub fn begin(&mut self) {
         self.made = 0;

@@ -28,9 +28,10 @@ pub fn displace(
     }
     let asked = Asked::new(compiler, scene, &textures, backend)?;
     let images = scene.images.clone();
-    let made_from = asked.hash(&images);
+    // Pictures are large: they are read for a hash only when somebody looks for it
+    let made_from = if kept.remembers() { asked.hash(&images).as_bytes().to_vec() } else { Vec::new() };
     let mut evaluator = None;
-    prepare::displace(scene, made_from.as_bytes(), kept, &mut |texture, points| {
+    prepare::displace(scene, &made_from, kept, &mut |texture, points| {
         let evaluator = match &mut evaluator {
             Some(evaluator) => evaluator,
             nothing => nothing.insert(Evaluator::open(gpu.clone(), &asked, &images)?),

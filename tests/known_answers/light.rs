@@ -82,18 +82,33 @@ fn lights_without_extent() {
     assert_eq!(with(Light::new(spot, grey(1.0)).along(direction)).mean, [0.0; 3]);
 }
 
-#[test]
-fn penumbra_of_a_disk_in_the_sky() {
-    // 20° wide, straight above an edge at height 2: the penumbra is 2 · 2 tan 10° wide
-    let mut s = scene(24, 1, 2048);
+/// A strip of floor from left to right, and a black half-plane at height 2 above its left half.
+fn floor_below_an_edge(spp: u32) -> Scene {
+    let mut s = scene(24, 1, spp);
     s.render.max_depth = 1;
     s.camera = look(Vec3::new(0.0, 1.0, 0.001), Vec3::ZERO, 4.0);
     s.camera.up = Vec3::NEG_Z;
     let white = s.material(white(), None);
     s.floor(white);
-    s.lights.push(Light::new(LightKind::distant(20.0), grey(3.0)).along(Vec3::NEG_Y));
     let black = s.black();
     s.quad(Vec3::new(-50.0, 2.0, -50.0), Vec3::X * 50.0, Vec3::Z * 100.0, black);
+    s
+}
+
+/// Where a pixel of that strip is in x, and how wide it is.
+fn place(s: &Scene, px: u32) -> (f64, f64) {
+    let on_floor = |px: u32| {
+        let (from, along) = center_ray(s, px, 0);
+        from.x + along.x / -along.y
+    };
+    (on_floor(px), on_floor(1) - on_floor(0))
+}
+
+#[test]
+fn penumbra_of_a_disk_in_the_sky() {
+    // 20° wide, straight above an edge at height 2: the penumbra is 2 · 2 tan 10° wide
+    let mut s = floor_below_an_edge(2048);
+    s.lights.push(Light::new(LightKind::distant(20.0), grey(3.0)).along(Vec3::NEG_Y));
     let p = render(&s);
     // The part of the disk, as it is on the floor, from which rays pass the edge
     let half = 10_f64.to_radians().sin();
@@ -106,10 +121,7 @@ fn penumbra_of_a_disk_in_the_sky() {
     };
     let (mut dark, mut part, mut full) = (0, 0, 0);
     for px in 0..24 {
-        let center = center_ray(&s, px, 0);
-        let x = center.0.x + center.1.x / -center.1.y;
-        let width = center_ray(&s, 1, 0).1.x / -center_ray(&s, 1, 0).1.y
-            - center_ray(&s, 0, 0).1.x / -center_ray(&s, 0, 0).1.y;
+        let (x, width) = place(&s, px);
         let share =
             (0..16).map(|k| seen(x + ((f64::from(k) + 0.5) / 16.0 - 0.5) * width)).sum::<f64>() / 16.0;
         let measured = mean_of(&p, [px as usize]);
@@ -129,16 +141,9 @@ fn penumbra_of_a_disk_in_the_sky() {
 fn penumbra_behind_a_straight_edge() {
     // Light at height 4, 1 wide; edge at height 2: the penumbra is 1 · 2 / (4 − 2) = 1 wide
     let (origin, u, v) = (Vec3::new(-0.5, 4.0, -0.5), Vec3::X, Vec3::Z);
-    let mut s = scene(24, 1, 4096);
-    s.render.max_depth = 1;
-    s.camera = look(Vec3::new(0.0, 1.0, 0.001), Vec3::ZERO, 4.0);
-    s.camera.up = Vec3::NEG_Z;
-    let white = s.material(white(), None);
-    s.floor(white);
+    let mut s = floor_below_an_edge(4096);
     let light = s.emitter(grey(1.0), false);
     s.quad(origin, u, v, light);
-    let black = s.black();
-    s.quad(Vec3::new(-50.0, 2.0, -50.0), Vec3::X * 50.0, Vec3::Z * 100.0, black);
     let p = render(&s);
     // Irradiance at x: of the part of the light that the edge leaves, x_light > −x
     let at = |x: f64, z: f64| {
@@ -153,10 +158,7 @@ fn penumbra_behind_a_straight_edge() {
     let full_light = at(0.5, 0.0) / PI;
     let (mut dark, mut half, mut full) = (0, 0, 0);
     for px in 0..24 {
-        let center = center_ray(&s, px, 0);
-        let width = center_ray(&s, 1, 0).1.x / -center_ray(&s, 1, 0).1.y
-            - center_ray(&s, 0, 0).1.x / -center_ray(&s, 0, 0).1.y;
-        let x = center.0.x + center.1.x / -center.1.y;
+        let (x, width) = place(&s, px);
         let expected = integrate_square(64, |a, b| at(x + (a - 0.5) * width, (b - 0.5) * width)) / PI;
         let measured = mean_of(&p, [px as usize]);
         if x + width < -0.5 {

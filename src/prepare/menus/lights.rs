@@ -1,6 +1,6 @@
 //! The generated files of the room of lights: what those of the table read, and a switch over them.
 
-use super::camel_case;
+use super::{write_inputs, write_test};
 use crate::layout::LIGHT_PUNCTUAL;
 use crate::scene::{PUNCTUAL_LIGHTS, PunctualKind};
 use std::fmt::Write as _;
@@ -41,19 +41,13 @@ pub(super) fn inputs_glsl(kinds: &[&'static PunctualKind]) -> String {
     for row in lights(kinds) {
         _ = writeln!(out, "const uint {} = {}u;", row.constant(), row.number);
     }
-    out += "\n// Whether it is infinitely far away.\n";
-    out += "bool punctual_is_far(uint kind)\n{\n    bool far = false;\n";
-    for row in lights(kinds).filter(|row| row.kind.shines.is_none()) {
-        _ = writeln!(out, "#ifdef {}\n    far = far || kind == {};\n#endif", row.switch(), row.constant());
-    }
-    out += "    return far;\n}\n";
+    let far = lights(kinds).filter(|row| row.kind.shines.is_none());
+    let far = far.map(|row| [row.switch(), row.constant()]);
+    write_test(&mut out, "Whether it is infinitely far away.", "punctual_is_far", far);
     for LightRow { kind, .. } in lights(kinds).filter(|row| !row.kind.numbers.is_empty()) {
-        let (name, prefix) = (camel_case(kind.name), kind.name);
-        let fields: Vec<_> = kind.numbers.iter().map(|number| format!("float {};", number.key)).collect();
-        let lanes = ["light.a", "light.b", "light.uv0.x", "light.uv0.y"];
-        let values = lanes[..kind.numbers.len()].join(", ");
-        _ = writeln!(out, "\nstruct {name} {{ {} }};", fields.join(" "));
-        _ = writeln!(out, "{name} {prefix}_inputs(Light light) {{ return {name}({values}); }}");
+        let fields: Vec<_> = kind.numbers.iter().map(|number| ("float", number.key)).collect();
+        let lanes = ["light.a", "light.b", "light.uv0.x", "light.uv0.y"].map(str::to_owned);
+        write_inputs(&mut out, kind.name, "Light light", &fields, &lanes[..fields.len()]);
     }
     out
 }

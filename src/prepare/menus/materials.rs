@@ -1,11 +1,11 @@
 //! The generated files of the room of materials: what BSDFs of the table read, and one switch a verb over all kinds.
 
-use super::camel_case;
+use super::{write_inputs, write_test};
 use crate::layout::{
     MATERIAL_BSDFS, MATERIAL_COATED_CONDUCTOR, MATERIAL_COATED_DIFFUSE, MATERIAL_CONDUCTOR,
     MATERIAL_DIELECTRIC, MATERIAL_PRINCIPLED,
 };
-use crate::scene::{BSDFS, BsdfKind};
+use crate::scene::{BSDFS, BsdfKind, InputNumber};
 use std::fmt::Write as _;
 
 /// A kind of material that scatters.
@@ -72,36 +72,21 @@ pub(super) fn inputs_glsl(bsdfs: &[&'static BsdfKind]) -> String {
     for (row, _) in rows() {
         _ = writeln!(out, "const uint {} = {}u;", row.constant(), row.number);
     }
-    out += "\n// Whether it has two colours, each a part of the light.\n";
-    out += "bool bsdf_has_parts(uint kind)\n{\n    bool parts = false;\n";
-    for (row, _) in rows().filter(|(_, bsdf)| bsdf.colors.len() > 1) {
-        _ = writeln!(
-            out,
-            "#ifdef {}\n    parts = parts || kind == {};\n#endif",
-            row.switch(),
-            row.constant()
-        );
-    }
-    out += "    return parts;\n}\n";
+    let parts = rows().filter(|(_, bsdf)| bsdf.colors.len() > 1);
+    let parts = parts.map(|(row, _)| [row.switch(), row.constant()]);
+    write_test(&mut out, "Whether it has two colours, each a part of the light.", "bsdf_has_parts", parts);
     for (_, bsdf) in rows() {
-        write_inputs(&mut out, bsdf);
+        let colors = bsdf.colors.iter().map(|of| ("vec3", of.key));
+        let fields: Vec<_> = colors.chain(bsdf.numbers.iter().map(|of| ("float", of.key))).collect();
+        let colors = ["b.color", "b.specular"].map(str::to_owned).into_iter().take(bsdf.colors.len());
+        let number = |(i, (lane, of)): (usize, (&str, &InputNumber))| {
+            format!("bsdf_number(b.numbers.{lane}, {i}u, {:?}, {:?})", of.least, of.most)
+        };
+        let numbers = ["x", "y"].into_iter().zip(bsdf.numbers).enumerate().map(number);
+        let values: Vec<_> = colors.chain(numbers).collect();
+        write_inputs(&mut out, bsdf.name, "Bsdf b", &fields, &values);
     }
     out
-}
-
-fn write_inputs(out: &mut String, bsdf: &BsdfKind) {
-    let name = camel_case(bsdf.name);
-    let fields = bsdf.colors.iter().map(|of| ("vec3", of.key));
-    let fields = fields.chain(bsdf.numbers.iter().map(|of| ("float", of.key)));
-    let fields: Vec<_> = fields.map(|(of, key)| format!("{of} {key};")).collect();
-    let colors = ["b.color", "b.specular"].into_iter().zip(bsdf.colors).map(|(from, _)| from.to_owned());
-    let numbers =
-        ["x", "y"].into_iter().zip(bsdf.numbers).enumerate().map(|(i, (lane, of))| {
-            format!("bsdf_number(b.numbers.{lane}, {i}u, {:?}, {:?})", of.least, of.most)
-        });
-    let values: Vec<_> = colors.chain(numbers).collect();
-    _ = writeln!(out, "\nstruct {name} {{ {} }};", fields.join(" "));
-    _ = writeln!(out, "{name} {}_inputs(Bsdf b) {{ return {name}({}); }}", bsdf.name, values.join(", "));
 }
 
 /// The verbs of all kinds that scatter. Those that the scene does not use are left out by switches: `HAS_`, or `HAS_BSDF_` of the table, and

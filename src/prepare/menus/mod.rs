@@ -7,6 +7,7 @@ pub use lights::lights;
 pub use materials::materials;
 
 use crate::scene::{BsdfKind, PunctualKind};
+use std::fmt::Write as _;
 
 /// Virtual files that are generated, with their texts: from the tables, and the functions of a scene's textures.
 pub fn generated(
@@ -21,6 +22,24 @@ pub fn generated(
         ("light/generated/inputs.glsl", lights::inputs_glsl(punctual_lights)),
         ("light/generated/menu.glsl", lights::menu_glsl(punctual_lights)),
     ]
+}
+
+/// Writes a function that says whether a kind is one of some, each with its switch and its number.
+fn write_test(out: &mut String, doc: &str, name: &str, kinds: impl Iterator<Item = [String; 2]>) {
+    _ = writeln!(out, "\n// {doc}\nbool {name}(uint kind)\n{{\n    bool found = false;");
+    for [switch, constant] in kinds {
+        _ = writeln!(out, "#ifdef {switch}\n    found = found || kind == {constant};\n#endif");
+    }
+    out.push_str("    return found;\n}\n");
+}
+
+/// Writes the struct of the inputs of a row, and the function that takes them out of its parameter: type and name of each field, and the
+/// value of each.
+fn write_inputs(out: &mut String, row: &str, parameter: &str, fields: &[(&str, &str)], values: &[String]) {
+    let name = camel_case(row);
+    let fields: Vec<_> = fields.iter().map(|(of, key)| format!("{of} {key};")).collect();
+    _ = writeln!(out, "\nstruct {name} {{ {} }};", fields.join(" "));
+    _ = writeln!(out, "{name} {row}_inputs({parameter}) {{ return {name}({}); }}", values.join(", "));
 }
 
 /// `CamelCase` of `snake_case`.
